@@ -1,0 +1,85 @@
+// The engine: invents terrain around moving objects, a slice at a time, and publishes what there is to draw.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "teren/Object.h"
+#include "teren/Position.h"
+#include "teren/Scene.h"
+#include "teren/Slice.h"
+#include "teren/World.h"
+
+namespace teren {
+
+/// The view: (2 radius + 1)^2 nodes of one uniform level around the active object.
+struct ViewSettings {
+  int level = 2;   ///< 0 ... World::topLevel(); a level more draws a quarter of the triangles per area
+  int radius = 6;  ///< 1 ... 64 nodes; triangles grow with its square
+
+  /// How far [m] the ground is drawn in every direction at least, wherever in its node the object is.
+  double reach(const World& world) const noexcept;
+  /// The smallest radius at this level that reaches `distance`.
+  static int radiusFor(double distance, int level, const World& world) noexcept;
+};
+
+struct EngineFigures {
+  std::size_t nodes = 0;                   ///< in the scene
+  std::size_t triangles = 0;               ///< in the scene
+  std::size_t bytes = 0;                   ///< base maps, nodes and meshes held
+  std::size_t pending = 0;                 ///< nodes wanted and not there yet
+  std::uint64_t slices = 0;                ///< begun since the engine was made
+  std::uint64_t lateSlices = 0;            ///< that ended beyond the budget
+  std::chrono::nanoseconds lastUpdate{0};  ///< wall time of the last update
+};
+
+/// One engine per view of a world. All calls from one thread; snapshots may be read by any.
+class Engine {
+ public:
+  static Result<std::unique_ptr<Engine>> create(std::shared_ptr<const World> world, ViewSettings view);
+  ~Engine();
+
+  const World& world() const noexcept;
+  const ViewSettings& view() const noexcept;
+
+  /// Adds an object; the first becomes active. The reference lives as long as the engine.
+  Object& add(std::unique_ptr<Object> object);
+  std::size_t objectCount() const noexcept;
+  Object& object(std::size_t index) noexcept;
+  std::size_t active() const noexcept;
+  void setActive(std::size_t index) noexcept;
+
+  /// Moves the objects by dt seconds, then works at what is missing until the budget is used, then publishes
+  /// a new scene if anything changed. No slice starts after the budget's end. Call from a timer or sensor,
+  /// never while the scene is being drawn.
+  void update(double dt, std::chrono::nanoseconds budget);
+
+  /// Works without moving anything until all that the view wants is there.
+  /// `progress(done, wanted)` is called about twenty times a second; returning false stops early.
+  void settle(const std::function<bool(std::size_t done, std::size_t wanted)>& progress = {});
+
+  /// The latest snapshot, never null.
+  std::shared_ptr<const Scene> scene() const noexcept;
+
+  /// [m] The triangles on the screen at a position; empty where nothing is drawn.
+  std::optional<double> drawnHeight(const Position& position) const;
+  /// What objects see: see Ground.
+  const Ground& ground() const noexcept;
+
+  EngineFigures figures() const noexcept;
+  /// Sentences about plugins that misbehaved since the last call, each said once.
+  std::vector<std::string> takeMessages();
+
+ private:
+  struct State;
+  explicit Engine(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace teren

@@ -1,0 +1,1 @@
+#include "teren/PluginRegistry.h"
