@@ -1,1 +1,176 @@
 #include "teren/PluginRegistry.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <exception>
+#include <system_error>
+#include <utility>
+
+#include "teren/Quote.h"
+
+#include "plugin/Module.h"
+
+namespace teren {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The most bytes of a plugin's own sentence.
+constexpr std::size_t kSentenceBytes = 400;
+
+/// Only its address matters: it lies in the engine's shared library.
+const char kOwnAddress = 0;
+
+/// The folder of the shared library this code is in; empty where the loader does not know.
+fs::path libraryFolder() {
+  Dl_info info{};
+  if (dladdr(&kOwnAddress, &info) == 0 || info.dli_fname == nullptr) return {};
+  std::error_code error;
+  const fs::path library = fs::canonical(info.dli_fname, error);
+  return error ? fs::path() : library.parent_path();
+}
+
+const char* kindName(PluginKind kind) {
+  return kind == PluginKind::generator ? "generator" : "filter";
+}
+
+/// Files named teren-*.so, sorted by name; directories and odd files included, so that they are reported.
+Result<std::vector<fs::path>> moduleFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (!pluginIdFromFile(entry->path()).empty()) files.push_back(entry->path());
+  }
+  if (error) return Error{"the folder cannot be read: " + shortened(error.message())};
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Calls a plugin's maker; what it throws becomes a sentence.
+template <class Base>
+Result<std::shared_ptr<const Base>> callMaker(std::unique_ptr<Base> (*make)(const Values&),
+                                              const Values& values, std::string_view id) {
+  try {
+    std::shared_ptr<const Base> made = make(values);
+    if (made == nullptr) return Error{"plugin " + inQuotes(id) + " made nothing of its parameters"};
+    return made;
+  } catch (const std::exception& exception) {
+    return Error{"plugin " + inQuotes(id) +
+                 " refuses its parameters: " + shortened(exception.what(), kSentenceBytes)};
+  } catch (...) {
+    return Error{"plugin " + inQuotes(id) + " refuses its parameters without saying why"};
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const PluginRegistry> PluginRegistry::load(std::span<const fs::path> folders) {
+  const std::shared_ptr<PluginRegistry> registry(new PluginRegistry);
+  std::vector<fs::path> visited;
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    const fs::path real = fs::canonical(folder, error);
+    if (error == std::errc::no_such_file_or_directory) continue;
+    // The same folder by two names is no reason to report all its plugins as duplicates.
+    if (std::find(visited.begin(), visited.end(), real) != visited.end()) continue;
+    if (!error) visited.push_back(real);
+    registry->loadFolder(folder);
+  }
+  return registry;
+}
+
+std::vector<fs::path> PluginRegistry::searchPath() {
+  std::vector<fs::path> folders;
+  if (const char* variable = std::getenv("TEREN_PLUGIN_PATH"); variable != nullptr) {
+    std::string_view rest = variable;
+    while (!rest.empty()) {
+      const std::string_view folder = rest.substr(0, rest.find(':'));
+      if (!folder.empty()) folders.emplace_back(folder);
+      rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+    }
+  }
+  const fs::path beside = libraryFolder();
+  if (!beside.empty()) folders.push_back(beside / "teren" / "plugins");
+  folders.emplace_back(TEREN_INSTALL_PLUGIN_DIRECTORY);
+  return folders;
+}
+
+std::shared_ptr<const PluginRegistry> PluginRegistry::standard() {
+  static const std::shared_ptr<const PluginRegistry> registry = load(searchPath());
+  return registry;
+}
+
+void PluginRegistry::loadFolder(const fs::path& folder) {
+  const Result<std::vector<fs::path>> files = moduleFiles(folder);
+  if (!files) {
+    refused_.push_back({folder, files.error().message});
+    return;
+  }
+  for (const fs::path& file : files.value()) loadFile(file);
+}
+
+void PluginRegistry::loadFile(const fs::path& file) {
+  // A module's id is its file's name, so a second one of the same id need not be opened to be known.
+  const std::string id = pluginIdFromFile(file);
+  if (const PluginInfo* first = find(id); first != nullptr) {
+    refused_.push_back({file, "the plugin " + inQuotes(id) + " was already found as " +
+                                  shortened(first->file.string(), kSentenceBytes)});
+    return;
+  }
+  const Result<Module> module = openModule(file);
+  if (!module) {
+    refused_.push_back({file, module.error().message});
+    return;
+  }
+  const PluginDescription& found = *module->description;
+  const auto place =
+      std::lower_bound(plugins_.begin(), plugins_.end(), id,
+                       [](const PluginInfo& info, const std::string& name) { return info.id < name; });
+  descriptions_.insert(descriptions_.begin() + (place - plugins_.begin()), &found);
+  plugins_.insert(place, {id, found.kind, shortened(found.version), shortened(found.doc, kSentenceBytes),
+                          file, module->parameters});
+}
+
+const PluginInfo* PluginRegistry::find(std::string_view id) const noexcept {
+  const auto found =
+      std::find_if(plugins_.begin(), plugins_.end(), [id](const PluginInfo& info) { return info.id == id; });
+  return found == plugins_.end() ? nullptr : &*found;
+}
+
+Result<const PluginDescription*> PluginRegistry::describe(std::string_view id, PluginKind kind) const {
+  const PluginInfo* info = find(id);
+  if (info != nullptr && info->kind == kind)
+    return descriptions_[static_cast<std::size_t>(info - plugins_.data())];
+  std::string known;
+  for (const PluginInfo& plugin : plugins_) {
+    if (plugin.kind == kind) known += (known.empty() ? "" : ", ") + plugin.id;
+  }
+  const std::string list = known.empty() ? "there are none" : "there are " + known;
+  if (info != nullptr) {
+    return Error{"plugin " + inQuotes(id) + " is a " + kindName(info->kind) + ", not a " + kindName(kind) +
+                 "; " + list};
+  }
+  return Error{std::string("no ") + kindName(kind) + " has the id " + inQuotes(id) + "; " + list};
+}
+
+Result<std::shared_ptr<const Generator>> PluginRegistry::makeGenerator(
+    std::string_view id, std::span<const Values::Entry> entries) const {
+  const Result<const PluginDescription*> description = describe(id, PluginKind::generator);
+  if (!description) return description.error();
+  const Result<Values> values = Values::check(find(id)->parameters, entries, id);
+  if (!values) return values.error();
+  return callMaker<Generator>(description.value()->makeGenerator, values.value(), id);
+}
+
+Result<std::shared_ptr<const Filter>> PluginRegistry::makeFilter(
+    std::string_view id, std::span<const Values::Entry> entries) const {
+  const Result<const PluginDescription*> description = describe(id, PluginKind::filter);
+  if (!description) return description.error();
+  const Result<Values> values = Values::check(find(id)->parameters, entries, id);
+  if (!values) return values.error();
+  return callMaker<Filter>(description.value()->makeFilter, values.value(), id);
+}
+
+}  // namespace teren

@@ -61,13 +61,14 @@ class PluginRegistry {
                                                    std::span<const Values::Entry> entries) const;
 
  private:
-  struct Module;
   PluginRegistry() = default;
   void loadFolder(const std::filesystem::path& folder);
-  Result<const PluginDescription*> open(const std::filesystem::path& file);
+  void loadFile(const std::filesystem::path& file);
+  /// The description of the plugin with this id and kind, or why there is none.
+  Result<const PluginDescription*> describe(std::string_view id, PluginKind kind) const;
 
   std::vector<PluginInfo> plugins_;
-  std::vector<const PluginDescription*> descriptions_;  // parallel to plugins_
+  std::vector<const PluginDescription*> descriptions_;  // parallel to plugins_, both sorted by id
   std::vector<RefusedModule> refused_;
 };
 

@@ -1,0 +1,38 @@
+// Opens one module file and checks everything it says about itself before the engine believes it.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "teren/Parameter.h"
+#include "teren/Plugin.h"
+#include "teren/Result.h"
+
+namespace teren {
+
+/// An accepted module: it stays loaded until the process ends, so the description and the table may be read
+/// by any thread at any time.
+struct Module {
+  const PluginDescription* description = nullptr;
+  std::span<const Parameter> parameters;
+};
+
+/// The id in a file name teren-<id>.so; empty where the name has not that form (the id itself is not
+/// checked).
+std::string pluginIdFromFile(const std::filesystem::path& file);
+
+/// Lower-case letters, digits and '-', at least one, at most 64.
+bool isPluginId(std::string_view id) noexcept;
+
+/// Loads the file with RTLD_NOW | RTLD_LOCAL, which runs its static initialisers, and checks its description
+/// and table. The sentence of a refusal does not repeat the file's name. What is refused is unloaded again.
+/// One thread at a time.
+Result<Module> openModule(const std::filesystem::path& file);
+
+/// Every word that differs between `module` and the engine, or is known to one side only, by name and with
+/// both values; success where there is none.
+Result<void> compareAbiWords(std::span<const AbiWord> module, std::span<const AbiWord> engine);
+
+}  // namespace teren
