@@ -23,8 +23,8 @@ class BasicHeightView {
   BasicHeightView(Sample* first, int columns, int rows) noexcept
       : BasicHeightView(first, columns, rows, columns) {}
   /// A view that may write is also a view that may read.
-  BasicHeightView(
-      const BasicHeightView<std::remove_const_t<Sample>>& other) noexcept requires std::is_const_v<Sample>
+  template <class Other, class = std::enable_if_t<std::is_same_v<Sample, const Other>>>
+  BasicHeightView(const BasicHeightView<Other>& other) noexcept
       : first_(other.data()), columns_(other.columns()), rows_(other.rows()), stride_(other.stride()) {}
 
   int columns() const noexcept { return columns_; }
