@@ -1,0 +1,6 @@
+// Returns no description.
+#include "Broken.h"
+
+TEREN_BROKEN_ENTRY {
+  return nullptr;
+}
