@@ -73,8 +73,6 @@ class Engine {
   const Ground& ground() const noexcept;
 
   EngineFigures figures() const noexcept;
-  /// Sentences about plugins that misbehaved since the last call, each said once.
-  std::vector<std::string> takeMessages();
 
  private:
   struct State;

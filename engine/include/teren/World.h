@@ -63,6 +63,7 @@ struct SurfacePoint {
 
 class Layer;
 class BaseMapStore;
+class MessageBox;
 
 /// A checked world, immutable; all member functions are const and may be called from any thread.
 class World {
@@ -95,6 +96,10 @@ class World {
   double mean() const noexcept;
   double deviation() const noexcept;
 
+  /// Sentences about plugins that misbehaved (threw, wrote NaN or left their promised range) since the last
+  /// call, each layer once; the landscape goes on with the layer's mean in their place.
+  std::vector<std::string> takeMessages() const;
+
   std::span<const Layer> layers() const noexcept;  ///< engine/world/Layer.h, for the engine itself
 
  private:
@@ -104,6 +109,7 @@ class World {
   int intervals_ = 0;
   int topLevel_ = 0;
   std::vector<Layer> layers_;
+  std::shared_ptr<MessageBox> messages_;
   std::unique_ptr<BaseMapStore> queryMaps_;
 };
 

@@ -1,0 +1,64 @@
+// The drawn surface over a grid of heights: two triangles a square, split by the diagonal from south-west to
+// north-east, with vertex normals from central differences.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "teren/HeightMap.h"
+
+namespace teren {
+
+/// Heights at the corners of a grid square [m].
+struct SquareHeights {
+  double southWest = 0.0, southEast = 0.0, northWest = 0.0, northEast = 0.0;
+};
+
+/// What the triangle at (x, y) in [0, 1]^2 of a square says: its height there and its slopes per side.
+struct TrianglePoint {
+  double height = 0.0;
+  double slopeX = 0.0, slopeY = 0.0;  ///< [m per side of the square]
+};
+
+/// Exact at the corners; on the diagonal both triangles agree.
+inline TrianglePoint sampleTriangle(const SquareHeights& corner, double x, double y) noexcept {
+  TrianglePoint point;
+  if (x >= y) {  // south-west, south-east, north-east
+    point.slopeX = corner.southEast - corner.southWest;
+    point.slopeY = corner.northEast - corner.southEast;
+  } else {  // south-west, north-east, north-west
+    point.slopeX = corner.northEast - corner.northWest;
+    point.slopeY = corner.northWest - corner.southWest;
+  }
+  point.height = corner.southWest + (x * point.slopeX + y * point.slopeY);
+  return point;
+}
+
+/// The drawn height at (x, y), in samples from the south-west one, of a grid of at least 2 x 2;
+/// 0 <= x <= columns - 1 and likewise y.
+double drawnHeightAt(ConstHeightView heights, double x, double y) noexcept;
+
+/// A unit normal as stored in a vertex: x and y as round(32767 n); z follows and is positive.
+struct PackedNormal {
+  std::int16_t x = 0, y = 0;
+  friend bool operator==(const PackedNormal&, const PackedNormal&) = default;
+};
+
+/// The largest angle [radian] between a normal of slope <= 10 and its packed form.
+inline constexpr double kPackedNormalError = 5e-4;
+
+/// The normal of a vertex from its four neighbours [m], `spacing` [m] away each.
+inline PackedNormal vertexNormal(float west, float east, float south, float north, double spacing) noexcept {
+  const double nx = static_cast<double>(west) - static_cast<double>(east);
+  const double ny = static_cast<double>(south) - static_cast<double>(north);
+  const double nz = 2.0 * spacing;
+  const double scale = 32767.0 / std::sqrt(nx * nx + ny * ny + nz * nz);
+  return {static_cast<std::int16_t>(std::floor(nx * scale + 0.5)),
+          static_cast<std::int16_t>(std::floor(ny * scale + 0.5))};
+}
+
+/// The unit normal of a triangle with the given slopes [m per side] and side [m].
+std::array<double, 3> faceNormal(const TrianglePoint& point, double side) noexcept;
+
+}  // namespace teren

@@ -1,0 +1,102 @@
+#include "patch/MeshTask.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "height/Surface.h"
+
+namespace teren {
+
+PieceExtent pieceExtent(Piece piece, int intervals) noexcept {
+  const int inside = intervals - 2;
+  switch (piece) {
+    case Piece::interior:
+      return {1, 1, inside, inside};
+    case Piece::eastSeam:
+      return {intervals - 1, 1, 2, inside};
+    case Piece::northSeam:
+      return {1, intervals - 1, inside, 2};
+    case Piece::cornerPiece:
+      break;
+  }
+  return {intervals - 1, intervals - 1, 2, 2};
+}
+
+std::shared_ptr<const TriangleIndices> GridIndices::get(int columns, int rows) {
+  std::shared_ptr<const TriangleIndices>& list = lists_[{columns, rows}];
+  if (list) return list;
+  auto indices = std::make_shared<TriangleIndices>();
+  indices->reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * 6);
+  const auto across = static_cast<std::uint32_t>(columns + 1);
+  for (std::uint32_t y = 0; y < static_cast<std::uint32_t>(rows); ++y) {
+    for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(columns); ++x) {
+      const std::uint32_t southWest = y * across + x, southEast = southWest + 1;
+      const std::uint32_t northWest = southWest + across, northEast = northWest + 1;
+      indices->insert(indices->end(), {southWest, southEast, northEast, southWest, northEast, northWest});
+    }
+  }
+  list = std::move(indices);
+  return list;
+}
+
+MeshTask::MeshTask(NodeBlock block, Piece piece, double spacing, std::uint64_t id, GridIndices& indices)
+    : block_(std::move(block)),
+      intervals_(block_.nodes[0]->columns() - 1),
+      extent_(pieceExtent(piece, intervals_)),
+      spacing_(spacing),
+      mesh_(std::make_shared<Mesh>()) {
+  const std::int64_t stride = std::int64_t{1} << block_.key.level;
+  mesh_->id = id;
+  mesh_->level = block_.key.level;
+  mesh_->originColumn = (block_.key.i * intervals_ + extent_.firstColumn) * stride;
+  mesh_->originRow = (block_.key.j * intervals_ + extent_.firstRow) * stride;
+  mesh_->columns = extent_.columns;
+  mesh_->rows = extent_.rows;
+  mesh_->minHeight = std::numeric_limits<float>::infinity();
+  mesh_->maxHeight = -std::numeric_limits<float>::infinity();
+  mesh_->indices = indices.get(extent_.columns, extent_.rows);
+  mesh_->vertices.reserve(static_cast<std::size_t>(extent_.columns + 1) *
+                          static_cast<std::size_t>(extent_.rows + 1));
+}
+
+bool MeshTask::step(const Slice& slice) {
+  while (nextRow_ <= extent_.rows) {
+    buildRow(nextRow_++);
+    if (slice.over()) break;
+  }
+  return nextRow_ > extent_.rows;
+}
+
+float MeshTask::heightAt(int column, int row) const {
+  // Of a line that two nodes share, the south or west one's copy is read: both have the same bits.
+  std::size_t node = 0;
+  if (column > intervals_) {
+    column -= intervals_;
+    node += 1;
+  }
+  if (row > intervals_) {
+    row -= intervals_;
+    node += 2;
+  }
+  return (*block_.nodes[node])(column, row);
+}
+
+void MeshTask::buildRow(int row) {
+  const int y = extent_.firstRow + row;
+  for (int column = 0; column <= extent_.columns; ++column) {
+    const int x = extent_.firstColumn + column;
+    SurfaceVertex vertex;
+    vertex.column = static_cast<std::int16_t>(column);
+    vertex.row = static_cast<std::int16_t>(row);
+    vertex.height = heightAt(x, y);
+    const PackedNormal normal = vertexNormal(heightAt(x - 1, y), heightAt(x + 1, y), heightAt(x, y - 1),
+                                             heightAt(x, y + 1), spacing_);
+    vertex.normalX = normal.x;
+    vertex.normalY = normal.y;
+    mesh_->minHeight = std::min(mesh_->minHeight, vertex.height);
+    mesh_->maxHeight = std::max(mesh_->maxHeight, vertex.height);
+    mesh_->vertices.push_back(vertex);
+  }
+}
+
+}  // namespace teren

@@ -1,0 +1,75 @@
+// Meshes of nodes, seams and corner pieces: rectangles of vertices over one to four neighbouring nodes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "teren/HeightMap.h"
+#include "teren/Scene.h"
+#include "teren/Slice.h"
+
+#include "patch/NodeKey.h"
+
+namespace teren {
+
+using NodeHeights = std::shared_ptr<const HeightMap>;
+
+/// Up to 2 x 2 neighbouring nodes of one level, south-west, south-east, north-west, north-east; those a piece
+/// does not touch may be null. `key` names the south-west one.
+struct NodeBlock {
+  NodeKey key;
+  std::array<NodeHeights, 4> nodes;
+};
+
+/// The pieces that together cover the plane once: a node's mesh leaves out its outermost ring of squares, a
+/// seam is two squares wide and joins two nodes, a corner piece is 2 x 2 squares and joins four.
+enum class Piece : std::uint8_t {
+  interior,    ///< of the block's south-west node
+  eastSeam,    ///< between it and its eastern neighbour
+  northSeam,   ///< between it and its northern neighbour
+  cornerPiece  ///< at its north-east corner
+};
+
+/// Vertices of a piece, in samples of the block's level from the south-west corner of its south-west node.
+struct PieceExtent {
+  int firstColumn = 0, firstRow = 0, columns = 0, rows = 0;  ///< squares, not vertices
+};
+/// `intervals` >= 2 is n.
+PieceExtent pieceExtent(Piece piece, int intervals) noexcept;
+
+/// Index lists of rectangles, made once per shape. Not thread-safe.
+class GridIndices {
+ public:
+  std::shared_ptr<const TriangleIndices> get(int columns, int rows);
+
+ private:
+  std::map<std::pair<int, int>, std::shared_ptr<const TriangleIndices>> lists_;
+};
+
+/// Builds a piece in slices of rows. Positions are copied from the nodes and normals are central differences
+/// over them, so neighbouring pieces - and one big monolithic map - have equal bits at shared vertices.
+class MeshTask final : public SlicedTask {
+ public:
+  /// `spacing` [m] of the block's level; `id` of the mesh. A piece of no squares gives an empty mesh.
+  MeshTask(NodeBlock block, Piece piece, double spacing, std::uint64_t id, GridIndices& indices);
+  bool step(const Slice& slice) override;
+
+  /// Complete once step has returned true.
+  std::shared_ptr<const Mesh> result() const { return mesh_; }
+
+ private:
+  float heightAt(int column, int row) const;
+  void buildRow(int row);
+
+  NodeBlock block_;
+  int intervals_;
+  PieceExtent extent_;
+  double spacing_;
+  std::shared_ptr<Mesh> mesh_;
+  int nextRow_ = 0;
+};
+
+}  // namespace teren

@@ -1,0 +1,32 @@
+// Names of nodes: level and indices.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "teren/Hash.h"
+
+namespace teren {
+
+/// The node that covers patches [i 2^level, (i + 1) 2^level) x [j 2^level, (j + 1) 2^level).
+struct NodeKey {
+  int level = 0;
+  std::int64_t i = 0, j = 0;
+
+  NodeKey parent() const noexcept { return {level + 1, i >> 1, j >> 1}; }
+  NodeKey neighbour(int di, int dj) const noexcept { return {level, i + di, j + dj}; }
+  /// The node of a coarser or equal level that contains this one.
+  NodeKey ancestor(int atLevel) const noexcept {
+    return {atLevel, i >> (atLevel - level), j >> (atLevel - level)};
+  }
+  friend bool operator==(const NodeKey&, const NodeKey&) = default;
+};
+
+struct NodeKeyHash {
+  std::size_t operator()(const NodeKey& key) const noexcept {
+    return hashWith(hashWith(static_cast<std::uint64_t>(key.level), static_cast<std::uint64_t>(key.i)),
+                    static_cast<std::uint64_t>(key.j));
+  }
+};
+
+}  // namespace teren

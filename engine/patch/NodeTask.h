@@ -1,0 +1,58 @@
+// The making of a node's heights: the base maps it needs, then the blended sum of the layers.
+#pragma once
+
+#include <vector>
+
+#include "teren/HeightMap.h"
+#include "teren/Slice.h"
+#include "teren/World.h"
+
+#include "patch/NodeKey.h"
+#include "world/BaseMap.h"
+#include "world/LayerSampler.h"
+
+namespace teren {
+
+/// Heights of a node at its (n + 1)^2 samples, borders included, in slices of base-map steps and blended
+/// rows. Needs exactly the base maps whose weights do not vanish inside the node. Heights are summed in
+/// double, layer by layer in the world's order, and rounded to float once. `world` and `store` must outlive
+/// it.
+class NodeTask final : public SlicedTask {
+ public:
+  NodeTask(const World& world, const NodeKey& key, BaseMapStore& store);
+  bool step(const Slice& slice) override;
+
+  const NodeKey& key() const noexcept { return key_; }
+  /// Complete once step has returned true.
+  const HeightMap& heights() const noexcept { return heights_; }
+  HeightMap takeHeights() noexcept { return std::move(heights_); }
+
+ private:
+  /// One layer over the node: its runs of columns and rows, and the base maps at all their corners.
+  struct LayerPlan {
+    int layer = 0;
+    int mapLevel = 0;
+    std::vector<CellRun> columns, rows;
+    std::vector<BaseMap> maps;  // rows of (columns.size() + 1), south to north
+  };
+  bool stepMaps(const Slice& slice);
+  bool stepRows(const Slice& slice);
+  void beginLayer();
+  CellMaps cornerMaps(std::size_t column, std::size_t row) const;
+
+  const World& world_;
+  NodeKey key_;
+  BaseMapStore& store_;
+  HeightMap heights_;
+  std::vector<double> sums_;
+
+  std::size_t layer_ = 0;
+  bool planned_ = false;
+  LayerPlan plan_;
+  std::unique_ptr<BaseMapTask> mapTask_;
+  std::size_t columnRun_ = 0, rowRun_ = 0;
+  int row_ = 0;
+  std::unique_ptr<CellBlock> block_;
+};
+
+}  // namespace teren

@@ -1,0 +1,132 @@
+#include "stream/NodeStore.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "height/Surface.h"
+
+namespace teren {
+
+std::vector<NodeKey> nodesOf(const PieceName& name) {
+  const NodeKey& key = name.key;
+  switch (name.piece) {
+    case Piece::interior:
+      return {key};
+    case Piece::eastSeam:
+      return {key, key.neighbour(1, 0)};
+    case Piece::northSeam:
+      return {key, key.neighbour(0, 1)};
+    case Piece::cornerPiece:
+      break;
+  }
+  return {key, key.neighbour(1, 0), key.neighbour(0, 1), key.neighbour(1, 1)};
+}
+
+std::array<PieceName, 9> piecesOf(const NodeKey& node) {
+  return {{{node, Piece::interior},
+           {node, Piece::eastSeam},
+           {node.neighbour(-1, 0), Piece::eastSeam},
+           {node, Piece::northSeam},
+           {node.neighbour(0, -1), Piece::northSeam},
+           {node, Piece::cornerPiece},
+           {node.neighbour(-1, 0), Piece::cornerPiece},
+           {node.neighbour(0, -1), Piece::cornerPiece},
+           {node.neighbour(-1, -1), Piece::cornerPiece}}};
+}
+
+NodeHeights NodeStore::heights(const NodeKey& key) const {
+  const NodeHeights* found = tree_.find(key, LookUp::none);
+  return found ? *found : nullptr;
+}
+
+void NodeStore::insert(const NodeKey& key, NodeHeights heights) {
+  assert(heights && heights->columns() == intervals_ + 1);
+  NodeHeights& place = *tree_.find(key, LookUp::create);
+  assert(!place);
+  heightBytes_ += heights->bytes() + sizeof(HeightMap);
+  place = std::move(heights);
+}
+
+void NodeStore::erase(const NodeKey& key) {
+  const NodeHeights held = heights(key);
+  if (!held) return;
+  heightBytes_ -= held->bytes() + sizeof(HeightMap);
+  tree_.erase(key);
+  if (drawn_.erase(key) == 0) return;
+  for (const PieceName& name : piecesOf(key)) {
+    const auto piece = pieces_.find(name);
+    if (piece == pieces_.end()) continue;
+    meshBytes_ -= meshes_.at(piece->second)->bytes();
+    meshes_.erase(piece->second);
+    pieces_.erase(piece);
+  }
+  ++serial_;
+}
+
+std::vector<NodeKey> NodeStore::nodes() const {
+  std::vector<NodeKey> keys;
+  tree_.forEach([&](const NodeKey& key, const NodeHeights&) { keys.push_back(key); });
+  return keys;
+}
+
+std::vector<PieceName> NodeStore::piecesToDraw(const NodeKey& node) const {
+  std::vector<PieceName> wanted;
+  for (const PieceName& name : piecesOf(node)) {
+    const std::vector<NodeKey> nodes = nodesOf(name);
+    const bool complete = std::all_of(
+        nodes.begin(), nodes.end(), [&](const NodeKey& key) { return key == node || drawn_.contains(key); });
+    if (complete) wanted.push_back(name);
+  }
+  return wanted;
+}
+
+std::unique_ptr<MeshTask> NodeStore::makePiece(const PieceName& name) {
+  NodeBlock block{name.key, {}};
+  for (const NodeKey& key : nodesOf(name)) {
+    const auto place = static_cast<std::size_t>((key.i - name.key.i) + 2 * (key.j - name.key.j));
+    block.nodes[place] = heights(key);
+    assert(block.nodes[place]);
+  }
+  const double spacing = spacing_ * static_cast<double>(std::int64_t{1} << name.key.level);
+  return std::make_unique<MeshTask>(std::move(block), name.piece, spacing, nextId_++, indices_);
+}
+
+void NodeStore::draw(const NodeKey& node,
+                     const std::vector<std::pair<PieceName, std::shared_ptr<const Mesh>>>& pieces) {
+  assert(!drawn_.contains(node) && pieces.size() == piecesToDraw(node).size());
+  drawn_.insert(node);
+  for (const auto& [name, mesh] : pieces) {
+    assert(!pieces_.contains(name));
+    pieces_.emplace(name, mesh->id);
+    meshes_.emplace(mesh->id, mesh);
+    meshBytes_ += mesh->bytes();
+  }
+  ++serial_;
+}
+
+std::optional<double> NodeStore::height(const Position& position, int level) const {
+  const NodeKey key = NodeKey{0, position.i, position.j}.ancestor(level);
+  const NodeHeights held = heights(key);
+  if (!held) return std::nullopt;
+  const double patches = static_cast<double>(std::int64_t{1} << level);
+  const double scale = intervals_ / patches;
+  const double x = (static_cast<double>(position.i - (key.i << level)) + position.u) * scale;
+  const double y = (static_cast<double>(position.j - (key.j << level)) + position.v) * scale;
+  return drawnHeightAt(std::as_const(*held).view(), x, y);
+}
+
+std::shared_ptr<const Scene> NodeStore::snapshot() const {
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  meshes.reserve(meshes_.size());
+  for (const auto& [id, mesh] : meshes_) {
+    if (!mesh->indices->empty()) meshes.push_back(mesh);  // with n = 2 all but the corner pieces are empty
+  }
+  return std::make_shared<const Scene>(serial_, spacing_, std::move(meshes));
+}
+
+std::size_t NodeStore::bytes() const noexcept {
+  return heightBytes_ + meshBytes_ + tree_.bytes();
+}
+
+}  // namespace teren

@@ -1,0 +1,101 @@
+#include "world/BaseMap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "teren/Hash.h"
+
+namespace teren {
+
+std::size_t BaseMapKeyHash::operator()(const BaseMapKey& key) const noexcept {
+  const auto place = (static_cast<std::uint64_t>(key.layer) << 32) | static_cast<std::uint32_t>(key.level);
+  return hashWith(hashWith(place, static_cast<std::uint64_t>(key.i)), static_cast<std::uint64_t>(key.j));
+}
+
+BaseMapTask::BaseMapTask(const Layer& layer, const BaseMapKey& key)
+    : layer_(layer),
+      request_(layer.request(key.i, key.j, key.level)),
+      map_(std::make_shared<HeightMap>(request_.samples, request_.samples)) {}
+
+bool BaseMapTask::step(const Slice& slice) {
+  try {
+    if (!stepPlugins(slice)) return false;
+    check();
+  } catch (const std::exception& problem) {
+    fail(std::string("threw \"") + problem.what() + "\"");
+  } catch (...) {
+    fail("threw something that is no std::exception");
+  }
+  return true;
+}
+
+bool BaseMapTask::stepPlugins(const Slice& slice) {
+  while (stage_ <= layer_.filters().size()) {
+    if (!current_) {
+      current_ = stage_ == 0 ? layer_.generator().begin(request_, map_->view())
+                             : layer_.filters()[stage_ - 1]->begin(request_, map_->view());
+      if (!current_) throw std::runtime_error("begin returned no task");
+    }
+    if (!current_->step(slice)) return false;
+    current_.reset();
+    ++stage_;
+    if (slice.over() && stage_ <= layer_.filters().size()) return false;
+  }
+  return true;
+}
+
+void BaseMapTask::check() {
+  const HeightRange& range = layer_.range();
+  for (const float height : map_->samples()) {
+    if (std::isfinite(height) && height >= range.min && height <= range.max) continue;
+    fail("wrote the height " + std::to_string(height) + ", outside its promised range " +
+         std::to_string(range.min) + " ... " + std::to_string(range.max));
+    return;
+  }
+}
+
+void BaseMapTask::fail(const std::string& why) {
+  current_.reset();
+  const auto mean = static_cast<float>(layer_.range().mean);
+  const HeightView heights = map_->view();
+  for (int y = 0; y < heights.rows(); ++y) std::fill_n(heights.row(y), heights.columns(), mean);
+  layer_.report("layer \"" + layer_.name() + "\" at lattice point (" + std::to_string(request_.i) + ", " +
+                std::to_string(request_.j) + ") " + why + "; its mean is used there instead");
+}
+
+BaseMap BaseMapStore::find(const BaseMapKey& key) {
+  const std::lock_guard lock(mutex_);
+  const auto found = index_.find(key);
+  if (found == index_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, found->second);
+  return found->second->map;
+}
+
+void BaseMapStore::insert(const BaseMapKey& key, BaseMap map) {
+  const std::lock_guard lock(mutex_);
+  if (index_.contains(key)) return;  // made twice at once: both have the same bits
+  entries_.push_front({key, std::move(map)});
+  index_.emplace(key, entries_.begin());
+  bytes_ += cost(entries_.front());
+  while (bytes_ > capacity_ && entries_.size() > 1) {
+    bytes_ -= cost(entries_.back());
+    index_.erase(entries_.back().key);
+    entries_.pop_back();
+  }
+}
+
+std::size_t BaseMapStore::bytes() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_;
+}
+
+std::size_t BaseMapStore::cost(const Entry& entry) noexcept {
+  // The list's and the index's own nodes and the map's control block come to about 160 bytes.
+  return entry.map->bytes() + sizeof(HeightMap) + sizeof(Entry) + 160;
+}
+
+}  // namespace teren

@@ -1,0 +1,78 @@
+// One layer of the world: a generator with its filters, lattice and base maps.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "teren/World.h"
+
+namespace teren {
+
+/// Sentences about plugins that misbehaved. Thread-safe.
+class MessageBox {
+ public:
+  /// Keeps the first sentence of each source (a layer) and drops later ones.
+  void post(const std::string& source, const std::string& sentence);
+  std::vector<std::string> take();
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> sources_, sentences_;
+};
+
+/// Immutable. Distances along its lattice are counted in level-0 samples of the world, whole numbers.
+class Layer {
+ public:
+  /// A checked layer of a world whose patches have 2^worldBits intervals; `pitchShift` is m in
+  /// "pitch = world pitch times 2^m", `layerBits` the logarithm of this layer's intervals a pitch.
+  Layer(std::string name, std::uint64_t worldSeed, double worldPitch, int worldBits, int pitchShift,
+        int layerBits, BlendKernel kernel, bool preserveVariance, std::shared_ptr<const Generator> generator,
+        std::vector<std::shared_ptr<const Filter>> filters, std::shared_ptr<MessageBox> messages);
+
+  const std::string& name() const noexcept { return name_; }
+  BlendKernel kernel() const noexcept { return kernel_; }
+  bool preserveVariance() const noexcept { return preserveVariance_; }
+  const Generator& generator() const noexcept { return *generator_; }
+  const std::vector<std::shared_ptr<const Filter>>& filters() const noexcept { return filters_; }
+  /// After the filters.
+  const HeightRange& range() const noexcept { return range_; }
+  double pitch() const noexcept { return pitch_; }
+
+  /// Logarithm of the number of level-0 samples in one pitch.
+  int cellBits() const noexcept { return worldBits_ + pitchShift_; }
+  /// Logarithm of the number of patches in one pitch (m).
+  int pitchShift() const noexcept { return pitchShift_; }
+  /// Logarithm of the intervals a finest base map has in one pitch (half its side).
+  int layerBits() const noexcept { return layerBits_; }
+
+  /// The last level of the world at which this layer is drawn; above it only its mean is.
+  int cutLevel() const noexcept { return cutLevel_; }
+  /// The level of the base maps that the world's grid of `level` <= cutLevel() samples. At level 0 always 0,
+  /// so that the level-0 surface samples the landscape itself even where filters make coarse maps
+  /// approximate.
+  int mapLevel(int level) const noexcept;
+  /// Side of a base map at one of its levels, 2^k + 1 (or 1: the centre).
+  int mapSamples(int mapLevel) const noexcept;
+
+  /// Request for the base map at lattice point (i, j).
+  MapRequest request(std::int64_t i, std::int64_t j, int mapLevel) const noexcept;
+
+  void report(const std::string& sentence) const { messages_->post(name_, sentence); }
+
+ private:
+  std::string name_;
+  std::uint64_t worldSeed_;
+  double pitch_;
+  int worldBits_, pitchShift_, layerBits_, cutLevel_;
+  BlendKernel kernel_;
+  bool preserveVariance_;
+  std::shared_ptr<const Generator> generator_;
+  std::vector<std::shared_ptr<const Filter>> filters_;
+  HeightRange range_;
+  std::shared_ptr<MessageBox> messages_;
+};
+
+}  // namespace teren

@@ -1,0 +1,226 @@
+#include "teren/World.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "height/Surface.h"
+#include "world/BaseMap.h"
+#include "world/ErrorBound.h"
+#include "world/Layer.h"
+#include "world/LayerSampler.h"
+
+namespace teren {
+
+namespace {
+
+constexpr int kMaxPitchShift = 40;
+
+/// k where samples = 2^k + 1, or -1.
+int sideBits(int samples) {
+  const auto intervals = static_cast<unsigned>(samples - 1);
+  return samples >= 2 && std::has_single_bit(intervals) ? std::countr_zero(intervals) : -1;
+}
+
+Result<int> checkedSideBits(int samples, int least, int most, const std::string& where) {
+  const int bits = sideBits(samples);
+  if (bits >= 0 && samples >= least && samples <= most) return bits;
+  return Error{where + "samples is " + std::to_string(samples) + ", expected 2^k + 1 from " +
+               std::to_string(least) + " to " + std::to_string(most)};
+}
+
+/// m where pitch = worldPitch 2^m.
+Result<int> checkedPitchShift(double pitch, double worldPitch, const std::string& where) {
+  for (int shift = 0; shift <= kMaxPitchShift; ++shift) {
+    if (pitch == worldPitch * static_cast<double>(std::int64_t{1} << shift)) return shift;
+  }
+  return Error{where + "pitch is " + numberText(pitch) + " m, expected the world's pitch of " +
+               numberText(worldPitch) + " m times 2^m with m from 0 to " + std::to_string(kMaxPitchShift)};
+}
+
+Result<void> checkRange(const HeightRange& range, const std::string& where) {
+  const bool finite = std::isfinite(range.mean) && std::isfinite(range.deviation) &&
+                      std::isfinite(range.min) && std::isfinite(range.max);
+  if (finite && range.deviation >= 0.0 && range.min <= range.mean && range.mean <= range.max) return {};
+  return Error{where + "the plugin promises a range that makes no sense: mean " + numberText(range.mean) +
+               ", deviation " + numberText(range.deviation) + ", min " + numberText(range.min) + ", max " +
+               numberText(range.max)};
+}
+
+std::string uniqueName(const std::string& wanted, const std::vector<LayerDescription>& layers) {
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(layers.begin(), layers.end(),
+                       [&](const LayerDescription& l) { return l.name == name; });
+  };
+  std::string name = wanted;
+  for (int number = 2; taken(name); ++number) name = wanted + "-" + std::to_string(number);
+  return name;
+}
+
+/// Gives unnamed layers their default names, in order; refuses two layers of one name.
+Result<std::vector<LayerDescription>> namedLayers(std::vector<LayerDescription> layers) {
+  for (const LayerDescription& layer : layers) {
+    if (layer.name.empty()) continue;
+    const auto same = std::count_if(layers.begin(), layers.end(),
+                                    [&](const LayerDescription& other) { return other.name == layer.name; });
+    if (same > 1) return Error{"two layers have the name \"" + layer.name + "\", expected each name once"};
+  }
+  for (LayerDescription& layer : layers) {
+    if (layer.name.empty()) layer.name = uniqueName(layer.generator, layers);
+  }
+  return layers;
+}
+
+Result<Layer> makeLayer(const LayerDescription& description, const WorldDescription& world, int worldBits,
+                        const PluginRegistry& registry, const std::shared_ptr<MessageBox>& messages) {
+  const std::string where = "layer \"" + description.name + "\": ";
+  const Result<int> bits = checkedSideBits(description.samples, 3, 2049, where);
+  if (!bits) return bits.error();
+  const Result<int> shift = checkedPitchShift(description.pitch, world.pitch, where);
+  if (!shift) return shift.error();
+  Result<std::shared_ptr<const Generator>> generator =
+      registry.makeGenerator(description.generator, description.parameters);
+  if (!generator) return Error{where + generator.error().message};
+  HeightRange range = (*generator)->range();
+  if (const Result<void> sane = checkRange(range, where); !sane) return sane.error();
+  std::vector<std::shared_ptr<const Filter>> filters;
+  for (const FilterDescription& wanted : description.filters) {
+    Result<std::shared_ptr<const Filter>> filter = registry.makeFilter(wanted.filter, wanted.parameters);
+    if (!filter) return Error{where + filter.error().message};
+    range = (*filter)->range(range);
+    if (const Result<void> sane = checkRange(range, where); !sane) return sane.error();
+    filters.push_back(std::move(*filter));
+  }
+  return Layer(description.name, world.seed, world.pitch, worldBits, *shift, *bits - 1, description.blend,
+               description.preserveVariance, std::move(*generator), std::move(filters), messages);
+}
+
+BaseMap finishedMap(const Layer& layer, const BaseMapKey& key, BaseMapStore& store) {
+  BaseMap map = store.find(key);
+  if (map) return map;
+  BaseMapTask task(layer, key);
+  while (!task.step(Slice::unlimited())) {
+  }
+  store.insert(key, task.result());
+  return task.result();
+}
+
+CellMaps finishedMaps(const Layer& layer, int index, std::int64_t i, std::int64_t j, BaseMapStore& store) {
+  CellMaps maps;
+  for (int map = 0; map < 4; ++map) {
+    maps[static_cast<std::size_t>(map)] =
+        finishedMap(layer, {index, 0, i + (map & 1), j + (map >> 1)}, store);
+  }
+  return maps;
+}
+
+/// How far across its cell of a layer a place lies; exact where the position is a sample of the world's grid.
+double across(std::int64_t patch, double fraction, int pitchShift) {
+  const std::int64_t mask = (std::int64_t{1} << pitchShift) - 1;
+  return (static_cast<double>(patch & mask) + fraction) / static_cast<double>(std::int64_t{1} << pitchShift);
+}
+
+}  // namespace
+
+World::World() = default;
+World::~World() = default;
+
+Result<std::shared_ptr<const World>> World::create(const WorldDescription& description,
+                                                   const PluginRegistry& registry) {
+  if (!(description.pitch >= 1e-3 && description.pitch <= 1e6)) {
+    return Error{"pitch is " + numberText(description.pitch) + " m, expected 0.001 to 1e6"};
+  }
+  const Result<int> bits = checkedSideBits(description.samples, 5, 1025, "");
+  if (!bits) return bits.error();
+  if (description.layers.empty()) return Error{"the world has no layers, expected at least one"};
+  Result<std::vector<LayerDescription>> layers = namedLayers(description.layers);
+  if (!layers) return layers.error();
+
+  std::shared_ptr<World> world(new World);
+  world->pitch_ = description.pitch;
+  world->seed_ = description.seed;
+  const int worldBits = *bits - 1;
+  world->intervals_ = 1 << worldBits;
+  world->messages_ = std::make_shared<MessageBox>();
+  for (const LayerDescription& layer : *layers) {
+    Result<Layer> made = makeLayer(layer, description, worldBits, registry, world->messages_);
+    if (!made) return made.error();
+    world->topLevel_ = std::max(world->topLevel_, made->cutLevel());
+    world->layers_.push_back(std::move(*made));
+  }
+  world->queryMaps_ = std::make_unique<BaseMapStore>(kQueryBytes);
+  return std::shared_ptr<const World>(std::move(world));
+}
+
+double World::spacing(int level) const noexcept {
+  return pitch_ / intervals_ * static_cast<double>(std::int64_t{1} << level);
+}
+
+std::span<const Layer> World::layers() const noexcept {
+  return layers_;
+}
+
+std::vector<std::string> World::takeMessages() const {
+  return messages_->take();
+}
+
+double World::mean() const noexcept {
+  double sum = 0.0;
+  for (const Layer& layer : layers_) sum += layer.range().mean;
+  return sum;
+}
+
+double World::deviation() const noexcept {
+  double squares = 0.0;
+  for (const Layer& layer : layers_) squares += layer.range().deviation * layer.range().deviation;
+  return std::sqrt(squares);
+}
+
+double World::height(const Position& position) const {
+  double sum = 0.0;
+  for (std::size_t index = 0; index < layers_.size(); ++index) {
+    const Layer& layer = layers_[index];
+    const int shift = layer.pitchShift();
+    const CellMaps maps =
+        finishedMaps(layer, static_cast<int>(index), position.i >> shift, position.j >> shift, *queryMaps_);
+    sum += layerHeight(layer, linePlace(layer, 0, across(position.i, position.u, shift)),
+                       linePlace(layer, 0, across(position.j, position.v, shift)), maps);
+  }
+  return sum;
+}
+
+SurfacePoint World::query(const Position& position) const {
+  const double n = intervals_;
+  const double x = position.u * n, y = position.v * n;
+  const double column = std::floor(x), row = std::floor(y);
+  const auto corner = [&](int dx, int dy) {
+    Position at = position;
+    at.u = (column + dx) / n;
+    at.v = (row + dy) / n;
+    if (at.u == 1.0) at.u = 0.0, ++at.i;
+    if (at.v == 1.0) at.v = 0.0, ++at.j;
+    return static_cast<double>(static_cast<float>(height(at)));
+  };
+  const SquareHeights heights{corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)};
+  const TrianglePoint triangle = sampleTriangle(heights, x - column, y - row);
+
+  SurfacePoint point;
+  point.height = height(position);
+  point.drawn = triangle.height;
+  point.normal = faceNormal(triangle, spacing(0));
+  for (std::size_t index = 0; index < layers_.size(); ++index) {
+    const Layer& layer = layers_[index];
+    const int shift = layer.pitchShift();
+    const CellMaps maps =
+        finishedMaps(layer, static_cast<int>(index), position.i >> shift, position.j >> shift, *queryMaps_);
+    const double side = 1.0 / (n * static_cast<double>(std::int64_t{1} << shift));
+    point.error += triangleError(layer, maps, across(position.i, column / n, shift),
+                                 across(position.j, row / n, shift), side);
+  }
+  const double largest = std::max({std::fabs(heights.southWest), std::fabs(heights.southEast),
+                                   std::fabs(heights.northWest), std::fabs(heights.northEast), 1.0});
+  point.error += largest * 0x1p-23;  // drawn heights are floats; sums in double round far less
+  return point;
+}
+
+}  // namespace teren

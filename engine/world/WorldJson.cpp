@@ -1,0 +1,283 @@
+// The JSON form of a world description. Every refusal names the source, the key's place and the value.
+#include <cmath>
+#include <fstream>
+#include <initializer_list>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "teren/World.h"
+
+namespace teren {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaxDepth = 32;
+constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
+
+/// A JSON object being read: knows its place for messages, and which of its keys were asked for.
+class ObjectReader {
+ public:
+  ObjectReader(const json& object, std::string place) : object_(object), place_(std::move(place)) {}
+
+  Error complaint(std::string_view key, const std::string& what) const {
+    return Error{place_ + (key.empty() ? "" : (place_.empty() ? "" : ".") + std::string(key)) + " " + what};
+  }
+  Error expected(std::string_view key, const std::string& what) const {
+    std::string value = object_.at(std::string(key)).dump(-1, ' ', false, json::error_handler_t::replace);
+    if (value.size() > 40) value = value.substr(0, 40) + "...";
+    return complaint(key, "is " + value + ", expected " + what);
+  }
+  Result<void> onlyKeys(std::initializer_list<std::string_view> known) const {
+    if (!object_.is_object()) return complaint("", "is not an object");
+    for (const auto& item : object_.items()) {
+      if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
+      std::string list;
+      for (const std::string_view key : known) list += (list.empty() ? "" : ", ") + std::string(key);
+      return complaint(item.key().substr(0, 40), "is not a known key, expected one of " + list);
+    }
+    return {};
+  }
+  const json* find(const char* key) const {
+    const auto found = object_.find(key);
+    return found == object_.end() ? nullptr : &*found;
+  }
+  std::string place(const char* key) const { return (place_.empty() ? "" : place_ + ".") + key; }
+
+  Result<void> read(const char* key, double& value) const {
+    const json* found = find(key);
+    if (!found) return {};
+    if (!found->is_number()) return expected(key, "a number");
+    value = found->get<double>();
+    return {};
+  }
+  Result<void> read(const char* key, int& value) const {
+    const json* found = find(key);
+    if (!found) return {};
+    if (!found->is_number_integer() || found->get<double>() < 0.0 || found->get<double>() > 1e9) {
+      return expected(key, "a whole number from 0 to 1e9");
+    }
+    value = found->get<int>();
+    return {};
+  }
+  Result<void> read(const char* key, std::uint64_t& value) const {
+    const json* found = find(key);
+    if (!found) return {};
+    if (!found->is_number_unsigned()) return expected(key, "a whole number from 0 to 2^64 - 1");
+    value = found->get<std::uint64_t>();
+    return {};
+  }
+  Result<void> read(const char* key, bool& value) const {
+    const json* found = find(key);
+    if (!found) return {};
+    if (!found->is_boolean()) return expected(key, "true or false");
+    value = found->get<bool>();
+    return {};
+  }
+  Result<void> read(const char* key, std::string& value) const {
+    const json* found = find(key);
+    if (!found) return {};
+    if (!found->is_string()) return expected(key, "a text");
+    value = found->get<std::string>();
+    if (value.empty() || value.size() > 200) return expected(key, "a text of 1 to 200 characters");
+    return {};
+  }
+  Result<void> read(const char* key, BlendKernel& value) const {
+    const json* found = find(key);
+    if (!found) return {};
+    if (*found == "linear") {
+      value = BlendKernel::linear;
+    } else if (*found == "smooth") {
+      value = BlendKernel::smooth;
+    } else {
+      return expected(key, "\"linear\" or \"smooth\"");
+    }
+    return {};
+  }
+  Result<void> read(const char* key, std::vector<Values::Entry>& entries) const {
+    const json* found = find(key);
+    if (!found) return {};
+    if (!found->is_object()) return expected(key, "an object");
+    for (const auto& [name, value] : found->items()) {
+      if (value.is_boolean()) {
+        entries.emplace_back(name, value.get<bool>());
+      } else if (value.is_string()) {
+        entries.emplace_back(name, value.get<std::string>());
+      } else if (value.is_number_integer() &&
+                 !(value.is_number_unsigned() &&
+                   value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<std::int64_t>::max()})) {
+        entries.emplace_back(name, value.get<std::int64_t>());
+      } else if (value.is_number()) {
+        entries.emplace_back(name, value.get<double>());
+      } else {
+        return complaint(std::string(key) + "." + name.substr(0, 40),
+                         "is neither a number, a text nor true or false");
+      }
+    }
+    return {};
+  }
+
+ private:
+  const json& object_;
+  std::string place_;
+};
+
+/// Reads keys until one is refused.
+template <class... Targets>
+Result<void> readAll(const ObjectReader& reader, std::pair<const char*, Targets&>... targets) {
+  Result<void> result;
+  (void)((result = reader.read(targets.first, targets.second), result.ok()) && ...);
+  return result;
+}
+
+template <class Target>
+std::pair<const char*, Target&> key(const char* name, Target& target) {
+  return {name, target};
+}
+
+Result<FilterDescription> readFilter(const json& object, const std::string& place) {
+  const ObjectReader reader(object, place);
+  if (const auto known = reader.onlyKeys({"filter", "parameters"}); !known) return known.error();
+  FilterDescription filter;
+  if (const auto read = readAll(reader, key("filter", filter.filter), key("parameters", filter.parameters));
+      !read) {
+    return read.error();
+  }
+  if (filter.filter.empty()) return reader.complaint("", "has no \"filter\", expected a plugin id");
+  return filter;
+}
+
+Result<LayerDescription> readLayer(const json& object, const std::string& place,
+                                   const LayerDescription& defaults) {
+  const ObjectReader reader(object, place);
+  if (const auto known = reader.onlyKeys(
+          {"name", "generator", "parameters", "pitch", "samples", "blend", "preserveVariance", "filters"});
+      !known) {
+    return known.error();
+  }
+  LayerDescription layer = defaults;
+  if (const auto read = readAll(reader, key("name", layer.name), key("generator", layer.generator),
+                                key("parameters", layer.parameters), key("pitch", layer.pitch),
+                                key("samples", layer.samples), key("blend", layer.blend),
+                                key("preserveVariance", layer.preserveVariance));
+      !read) {
+    return read.error();
+  }
+  if (layer.generator.empty()) return reader.complaint("", "has no \"generator\", expected a plugin id");
+  const json* filters = reader.find("filters");
+  if (!filters) return layer;
+  if (!filters->is_array()) return reader.expected("filters", "a list");
+  for (const json& item : *filters) {
+    Result<FilterDescription> filter =
+        readFilter(item, reader.place("filters") + "[" + std::to_string(layer.filters.size()) + "]");
+    if (!filter) return filter.error();
+    layer.filters.push_back(std::move(*filter));
+  }
+  return layer;
+}
+
+Result<WorldDescription> readWorld(const json& object) {
+  const ObjectReader reader(object, "");
+  if (!object.is_object()) return Error{"the outermost value is not an object"};
+  if (const auto known = reader.onlyKeys({"seed", "pitch", "samples", "blend", "preserveVariance", "layers"});
+      !known) {
+    return known.error();
+  }
+  WorldDescription world;
+  LayerDescription defaults;
+  if (const auto read =
+          readAll(reader, key("seed", world.seed), key("pitch", world.pitch), key("samples", world.samples),
+                  key("blend", defaults.blend), key("preserveVariance", defaults.preserveVariance));
+      !read) {
+    return read.error();
+  }
+  defaults.pitch = world.pitch;
+  defaults.samples = world.samples;
+  const json* layers = reader.find("layers");
+  if (!layers) return Error{"the key layers is missing, expected a list of layers"};
+  if (!layers->is_array() || layers->empty())
+    return reader.expected("layers", "a list of at least one layer");
+  for (const json& item : *layers) {
+    Result<LayerDescription> layer =
+        readLayer(item, "layers[" + std::to_string(world.layers.size()) + "]", defaults);
+    if (!layer) return layer.error();
+    world.layers.push_back(std::move(*layer));
+  }
+  return world;
+}
+
+/// Parses, refusing what the library would let pass: deep nesting and keys given twice.
+Result<json> parse(std::string_view text) {
+  std::string problem;
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
+    if (depth > kMaxDepth) problem = "is nested more than " + std::to_string(kMaxDepth) + " levels deep";
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end && !keys.empty()) keys.pop_back();
+    if (event == json::parse_event_t::key && !keys.empty()) {
+      const auto name = parsed.get<std::string>();
+      if (!keys.back().insert(name).second && problem.empty()) {
+        problem = "has the key \"" + name.substr(0, 40) + "\" twice in one object";
+      }
+    }
+    return true;
+  };
+  try {
+    json parsed = json::parse(text, watch);
+    if (!problem.empty()) return Error{problem};
+    return parsed;
+  } catch (const json::parse_error& error) {
+    return Error{"is not JSON: problem at byte " + std::to_string(error.byte)};
+  }
+}
+
+}  // namespace
+
+Result<WorldDescription> WorldDescription::fromJson(std::string_view text, std::string_view source) {
+  const std::string name(source);
+  if (text.size() > kMaxBytes) return Error{name + " is larger than 16 MiB, which no world description is"};
+  const Result<json> parsed = parse(text);
+  if (!parsed) return Error{name + " " + parsed.error().message};
+  Result<WorldDescription> world = readWorld(*parsed);
+  if (!world) return Error{name + ": " + world.error().message};
+  return world;
+}
+
+Result<WorldDescription> WorldDescription::fromFile(const std::filesystem::path& file) {
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(file, problem)) {
+    return Error{file.string() + " is not a file that can be read, expected a world description in JSON"};
+  }
+  if (std::filesystem::file_size(file, problem) > kMaxBytes) {
+    return Error{file.string() + " is larger than 16 MiB, which no world description is"};
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) return Error{file.string() + " could not be read"};
+  return fromJson(text.str(), file.string());
+}
+
+WorldDescription WorldDescription::standard() {
+  const auto layer = [](const char* name, double pitch, double deviation, std::int64_t faults) {
+    LayerDescription description;
+    description.name = name;
+    description.generator = "fault";
+    description.parameters = {{"faults", faults}, {"deviation", deviation}};
+    description.pitch = pitch;
+    description.filters = {{"band", {}}};
+    return description;
+  };
+  WorldDescription world;
+  world.seed = 42;
+  world.layers = {layer("ranges", 8192.0, 500.0, 150), layer("hills", 512.0, 40.0, 150),
+                  layer("detail", 64.0, 4.0, 150)};
+  return world;
+}
+
+}  // namespace teren
