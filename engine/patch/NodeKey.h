@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "teren/Hash.h"
+#include "teren/Position.h"
 
 namespace teren {
 
@@ -21,6 +22,11 @@ struct NodeKey {
   }
   friend bool operator==(const NodeKey&, const NodeKey&) = default;
 };
+
+/// The node of a level that a position lies in.
+inline NodeKey nodeAt(const Position& position, int level) noexcept {
+  return NodeKey{0, position.i, position.j}.ancestor(level);
+}
 
 struct NodeKeyHash {
   std::size_t operator()(const NodeKey& key) const noexcept {

@@ -105,7 +105,9 @@ struct Engine::State final : Ground {
   std::size_t sceneTriangles = 0;
   std::chrono::nanoseconds lastUpdate{0};
 
-  std::vector<NodeKey> wanted;  // most urgent first; those not there yet are worked at in this order
+  std::optional<NodeKey> viewCentre;  // the view's node under the active object
+  std::vector<NodeKey> groundWanted;  // level-0 nodes under all objects
+  std::vector<NodeKey> wanted;        // most urgent first; those not there yet are worked at in this order
   std::size_t nextWanted = 0;
   std::unique_ptr<NodeJob> job;
 
@@ -118,10 +120,9 @@ struct Engine::State final : Ground {
     return drawable ? nodes.isDrawn(key) : nodes.heights(key) != nullptr;
   }
   /// Nodes of the view's level are drawn; ground under objects is only kept (unless the view is of level 0).
-  bool isDrawable(const NodeKey& key) const {
-    return key.level == view.level && mayStay(key, objects[active]->motion().position, view);
-  }
-  void chooseNodes();
+  bool isDrawable(const NodeKey& key) const { return viewCentre && mayStay(key, *viewCentre, view); }
+  /// Whether what is wanted has changed.
+  bool chooseNodes();
   void dropNodes();
   bool startJob();
   void work();
@@ -131,8 +132,7 @@ struct Engine::State final : Ground {
 };
 
 std::optional<double> Engine::State::drawnHeight(const Position& position) const {
-  const NodeKey key = NodeKey{0, position.i, position.j}.ancestor(view.level);
-  return nodes.isDrawn(key) ? nodes.height(position, view.level) : std::nullopt;
+  return nodes.isDrawn(nodeAt(position, view.level)) ? nodes.height(position, view.level) : std::nullopt;
 }
 
 std::optional<double> Engine::State::height(const Position& position) const {
@@ -142,25 +142,41 @@ std::optional<double> Engine::State::height(const Position& position) const {
   return drawn ? drawn : finest;
 }
 
-void Engine::State::chooseNodes() {
+bool Engine::State::chooseNodes() {
+  if (objects.empty()) return false;
+  std::vector<NodeKey> ground;
+  for (const auto& object : objects) {
+    const std::vector<NodeKey> under = groundNodes(object->motion(), *world);
+    ground.insert(ground.end(), under.begin(), under.end());
+  }
+  const Position eye = objects[active]->motion().position;
+  const NodeKey centre = nodeAt(eye, view.level);
+  if (viewCentre == centre && groundWanted == ground) return false;
+  viewCentre = centre;
+  groundWanted = ground;
   wanted.clear();
   nextWanted = 0;
-  if (objects.empty()) return;
   std::unordered_set<NodeKey, NodeKeyHash> seen;
   const auto want = [&](const std::vector<NodeKey>& keys) {
     for (const NodeKey& key : keys) {
       if (seen.insert(key).second) wanted.push_back(key);
     }
   };
-  for (const auto& object : objects) want(groundNodes(object->motion(), *world));
-  want(viewNodes(objects[active]->motion().position, view, *world));
+  want(ground);
+  want(viewNodes(eye, view, *world));
+  return true;
 }
 
 void Engine::State::dropNodes() {
   const std::uint64_t before = nodes.serial();
   const std::unordered_set<NodeKey, NodeKeyHash> keep(wanted.begin(), wanted.end());
   for (const NodeKey& key : nodes.nodes()) {
-    if (!keep.contains(key) && !(key.level == view.level && isDrawable(key))) nodes.erase(key);
+    if (isDrawable(key)) continue;
+    if (keep.contains(key)) {
+      nodes.undraw(key);  // ground under an object beyond the view
+    } else {
+      nodes.erase(key);
+    }
   }
   if (!job) return;
   if (!keep.contains(job->key())) {
@@ -255,8 +271,7 @@ void Engine::update(double dt, std::chrono::nanoseconds budget) {
   State& state = *state_;
   for (const auto& object : state.objects) object->update(dt, state);
   state.meter.beginFrame(start + budget);
-  state.chooseNodes();
-  state.dropNodes();
+  if (state.chooseNodes()) state.dropNodes();
   state.work();
   state.publish();
   state.lastUpdate = Slice::Clock::now() - start;
@@ -267,8 +282,7 @@ void Engine::settle(const std::function<bool(std::size_t, std::size_t)>& progres
   State& state = *state_;
   for (;;) {
     state.meter.beginFrame(Slice::Clock::now() + kBetweenReports);
-    state.chooseNodes();
-    state.dropNodes();
+    if (state.chooseNodes()) state.dropNodes();
     state.work();
     state.publish();
     const std::size_t left = state.pending();

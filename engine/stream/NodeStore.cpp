@@ -53,6 +53,10 @@ void NodeStore::erase(const NodeKey& key) {
   if (!held) return;
   heightBytes_ -= held->bytes() + sizeof(HeightMap);
   tree_.erase(key);
+  undraw(key);
+}
+
+void NodeStore::undraw(const NodeKey& key) {
   if (drawn_.erase(key) == 0) return;
   for (const PieceName& name : piecesOf(key)) {
     const auto piece = pieces_.find(name);
@@ -106,7 +110,7 @@ void NodeStore::draw(const NodeKey& node,
 }
 
 std::optional<double> NodeStore::height(const Position& position, int level) const {
-  const NodeKey key = NodeKey{0, position.i, position.j}.ancestor(level);
+  const NodeKey key = nodeAt(position, level);
   const NodeHeights held = heights(key);
   if (!held) return std::nullopt;
   const double patches = static_cast<double>(std::int64_t{1} << level);

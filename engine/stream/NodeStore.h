@@ -49,6 +49,8 @@ class NodeStore {
   void insert(const NodeKey& key, NodeHeights heights);
   /// Forgets a node: its heights, and its pieces if it is drawn.
   void erase(const NodeKey& key);
+  /// Takes a node out of the drawn set, with its pieces; its heights stay.
+  void undraw(const NodeKey& key);
   std::vector<NodeKey> nodes() const;
 
   bool isDrawn(const NodeKey& key) const { return drawn_.contains(key); }

@@ -9,10 +9,6 @@ namespace teren {
 
 namespace {
 
-NodeKey nodeAt(const Position& position, int level) noexcept {
-  return NodeKey{0, position.i, position.j}.ancestor(level);
-}
-
 /// Inside the world, so that neighbours of a node never leave it either.
 bool insideWorld(const NodeKey& key) noexcept {
   const std::int64_t most = (kMaxPatch >> key.level) - 1;
@@ -46,8 +42,7 @@ std::vector<NodeKey> viewNodes(const Position& position, const ViewSettings& vie
   return nodes;
 }
 
-bool mayStay(const NodeKey& key, const Position& position, const ViewSettings& view) noexcept {
-  const NodeKey centre = nodeAt(position, view.level);
+bool mayStay(const NodeKey& key, const NodeKey& centre, const ViewSettings& view) noexcept {
   return key.level == view.level && std::abs(key.i - centre.i) <= view.radius + 1 &&
          std::abs(key.j - centre.j) <= view.radius + 1;
 }

@@ -244,6 +244,19 @@ TEST(Engine, ForgetsWhatLiesFarBehind) {
   EXPECT_LT(flight.engine->figures().bytes, bytes + (std::size_t{2} << 20));
 }
 
+TEST(Engine, DrawsNothingBeyondTheViewThoughGroundIsKeptThere) {
+  Flight flight({0, 2});
+  auto& second = static_cast<Puppet&>(flight.engine->add(std::make_unique<Puppet>(Position{1, 1, 0.5, 0.5})));
+  flight.engine->settle();
+  flight.puppet->moveTo({50, 0, 0.5, 0.5});
+  flight.engine->settle();
+  EXPECT_FALSE(flight.engine->drawnHeight(second.motion().position).has_value());
+  EXPECT_TRUE(flight.engine->ground().height(second.motion().position).has_value());
+  flight.puppet->moveTo({0, 0, 0.5, 0.5});
+  flight.engine->settle();
+  EXPECT_TRUE(flight.engine->drawnHeight(second.motion().position).has_value());
+}
+
 TEST(Engine, GoesOnAtTheWorldsEnd) {
   Flight flight({1, 2}, Position{kMaxPatch - 1, -kMaxPatch, 0.5, 0.5});
   flight.engine->settle();
