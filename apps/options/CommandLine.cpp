@@ -1,4 +1,4 @@
-#include "options/CommandLine.h"
+#include "apps/options/CommandLine.h"
 
 #include <algorithm>
 #include <charconv>
@@ -45,9 +45,13 @@ std::optional<Integer> wholeText(std::string_view text) {
 
 }  // namespace
 
-ExitCode fail(const CLI::App& application, ExitCode code, std::string_view sentence) {
+void complain(const CLI::App& application, std::string_view sentence) {
   const std::string line = application.get_name() + ": " + std::string(sentence) + "\n";
   std::fputs(line.c_str(), stderr);
+}
+
+ExitCode fail(const CLI::App& application, ExitCode code, std::string_view sentence) {
+  complain(application, sentence);
   return code;
 }
 

@@ -20,8 +20,10 @@ enum ExitCode : int {
   kWrongInput = 2,  ///< a wrong command line, file or parameter
 };
 
-/// Writes "PROGRAM: SENTENCE" as one line to standard error and returns the code, for `return fail(...)`.
-/// PROGRAM is the application's name.
+/// Writes "PROGRAM: SENTENCE" as one line to standard error; PROGRAM is the application's name.
+void complain(const CLI::App& application, std::string_view sentence);
+
+/// The same, and returns the code, for `return fail(...)`.
 ExitCode fail(const CLI::App& application, ExitCode code, std::string_view sentence);
 
 /// Parses; returns an exit code where the program should end now (after --help: kSuccess, with the text on

@@ -1,4 +1,4 @@
-#include "options/WorldOptions.h"
+#include "apps/options/WorldOptions.h"
 
 #include <string>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "teren/Parameter.h"
 #include "teren/Quote.h"
 
-#include "options/CommandLine.h"
+#include "apps/options/CommandLine.h"
 
 namespace teren {
 namespace {

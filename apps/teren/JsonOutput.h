@@ -1,0 +1,19 @@
+// How `teren` answers in JSON: keys in the order of the contract, indented, always valid UTF-8.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "teren/Plugin.h"
+
+namespace teren {
+
+using OrderedJson = nlohmann::ordered_json;
+
+/// Writes the value and a line break to standard output; bytes that are not UTF-8 (file names may hold any)
+/// become U+FFFD.
+void printJson(const OrderedJson& value);
+
+/// "generator" or "filter".
+const char* kindText(PluginKind kind);
+
+}  // namespace teren

@@ -1,0 +1,98 @@
+// teren query WORLD X Y [X Y]... [--json]: heights, normals and error bounds at points.
+#include <iostream>
+#include <vector>
+
+#include "teren/Parameter.h"
+#include "teren/Quote.h"
+
+#include "apps/options/WorldOptions.h"
+#include "apps/teren/Command.h"
+#include "apps/teren/JsonOutput.h"
+
+namespace teren {
+namespace {
+
+constexpr int kMostArguments = 1 << 24;
+
+struct TypedPoint {
+  double x = 0.0, y = 0.0;
+  Position position;
+};
+
+Result<std::vector<TypedPoint>> readPoints(const std::vector<std::string>& texts, double pitch) {
+  if (texts.size() % 2 != 0) {
+    return Error{"X and Y come in pairs, but the last X is " + inQuotes(texts.back()) + " and has no Y"};
+  }
+  std::vector<TypedPoint> points;
+  for (std::size_t k = 0; k < texts.size(); k += 2) {
+    const Result<double> x = parseNumber(texts[k]);
+    if (!x) return Error{"X: " + x.error().message};
+    const Result<double> y = parseNumber(texts[k + 1]);
+    if (!y) return Error{"Y: " + y.error().message};
+    const Result<Position> position = Position::fromMetres(x.value(), y.value(), pitch);
+    if (!position) return position.error();
+    points.push_back({x.value(), y.value(), position.value()});
+  }
+  return points;
+}
+
+OrderedJson asJson(const TypedPoint& point, const SurfacePoint& surface) {
+  return {{"x", point.x},
+          {"y", point.y},
+          {"height", surface.height},
+          {"drawn", surface.drawn},
+          {"normal", {surface.normal[0], surface.normal[1], surface.normal[2]}},
+          {"error", surface.error}};
+}
+
+std::string asText(const TypedPoint& point, const SurfacePoint& surface) {
+  return "(" + numberText(point.x) + ", " + numberText(point.y) + "): height " + numberText(surface.height) +
+         " m, drawn " + numberText(surface.drawn) + " m, at most " + numberText(surface.error) +
+         " m apart, normal (" + numberText(surface.normal[0]) + ", " + numberText(surface.normal[1]) + ", " +
+         numberText(surface.normal[2]) + ")";
+}
+
+class QueryCommand final : public Command {
+ public:
+  explicit QueryCommand(CLI::App& parent)
+      : Command(parent, "query", "tell height, normal and error bound at points of the landscape"),
+        world_(application()),
+        points_(application()
+                    .add_option("POINTS", "X Y [X Y]...: metres east and north of the world's zero")
+                    ->expected(2, kMostArguments)
+                    ->allow_extra_args(false)
+                    ->required()),
+        json_(application().add_flag("--json", "answer in JSON")) {}
+
+  ExitCode run() override {
+    const Result<std::shared_ptr<const World>> world = world_.create(*PluginRegistry::standard());
+    if (!world) return fail(kWrongInput, world.error().message);
+    const Result<std::vector<TypedPoint>> points = readPoints(points_->results(), (*world)->pitch());
+    if (!points) return fail(kWrongInput, points.error().message);
+    OrderedJson answer = {{"points", OrderedJson::array()}};
+    for (const TypedPoint& point : points.value()) {
+      const SurfacePoint surface = (*world)->query(point.position);
+      if (json_->count() > 0) {
+        answer["points"].push_back(asJson(point, surface));
+      } else {
+        std::cout << asText(point, surface) << '\n';
+      }
+    }
+    if (json_->count() > 0) printJson(answer);
+    complainAbout(**world);
+    return kSuccess;
+  }
+
+ private:
+  WorldOptions world_;
+  const CLI::Option* points_;
+  const CLI::Option* json_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeQueryCommand(CLI::App& parent) {
+  return std::make_unique<QueryCommand>(parent);
+}
+
+}  // namespace teren
