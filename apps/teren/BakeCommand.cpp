@@ -64,7 +64,7 @@ class BakeCommand final : public Command {
                    .add_option("--slice-us", "microseconds a slice of work may take, 0: unlimited [0]")
                    ->type_name("N")),
         output_(application().add_option("-o", "what to write, .r32 or .png")->type_name("FILE")->required()),
-        json_(application().add_flag("--json", "answer in JSON")) {}
+        json_(addJson()) {}
 
   ExitCode run() override {
     const Result<Order> order = readOrder();

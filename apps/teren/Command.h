@@ -30,6 +30,10 @@ class Command {
       : parent_(&parent), application_(parent.add_subcommand(name, doc)) {}
 
   CLI::App& application() { return *application_; }
+  const CLI::Option* addJson() {
+    const std::string doc = "answer in JSON";
+    return application_->add_flag("--json", doc);
+  }
   ExitCode fail(ExitCode code, std::string_view sentence) const {
     return teren::fail(*parent_, code, sentence);
   }

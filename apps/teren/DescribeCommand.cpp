@@ -71,7 +71,7 @@ class DescribeCommand final : public Command {
   explicit DescribeCommand(CLI::App& parent)
       : Command(parent, "describe", "tell a plugin's parameters: types, defaults, ranges, units"),
         id_(application().add_option("ID", "the plugin's id, as `teren plugins` lists it")->required()),
-        json_(application().add_flag("--json", "answer in JSON")) {}
+        json_(addJson()) {}
 
   ExitCode run() override {
     const auto registry = PluginRegistry::standard();

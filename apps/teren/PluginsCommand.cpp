@@ -13,7 +13,7 @@ class PluginsCommand final : public Command {
  public:
   explicit PluginsCommand(CLI::App& parent)
       : Command(parent, "plugins", "list the plugins that were found, and the modules that were refused"),
-        json_(application().add_flag("--json", "answer in JSON")) {}
+        json_(addJson()) {}
 
   ExitCode run() override {
     const auto registry = PluginRegistry::standard();

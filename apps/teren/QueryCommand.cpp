@@ -62,7 +62,7 @@ class QueryCommand final : public Command {
                     ->expected(2, kMostArguments)
                     ->allow_extra_args(false)
                     ->required()),
-        json_(application().add_flag("--json", "answer in JSON")) {}
+        json_(addJson()) {}
 
   ExitCode run() override {
     const Result<std::shared_ptr<const World>> world = world_.create(*PluginRegistry::standard());
