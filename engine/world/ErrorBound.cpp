@@ -116,7 +116,7 @@ PieceBound pieceBound(ConstHeightView map, double mean, double t, double s, doub
   const int intervals = (map.columns() - 1) / 2;
   const auto firstPiece = [&](double place) { return static_cast<int>(std::floor(place * intervals)); };
   const auto lastPiece = [&](double place) {
-    return std::min(static_cast<int>(std::ceil((place + side) * intervals)) - 1, 2 * intervals - 1);
+    return std::min(-static_cast<int>(std::floor(-(place + side) * intervals)) - 1, 2 * intervals - 1);
   };
   PieceBound bound;
   for (int row = firstPiece(s); row <= std::max(firstPiece(s), lastPiece(s)); ++row) {
