@@ -64,7 +64,7 @@ teren::WorldDescription filteredFaults() {
 /// The same few regions at every level, one of them where positions need more than 45 bits.
 void addRegions(Fnv1a& hash, const World& world, const teren::BakeOptions& options) {
   for (int level = 0; level <= std::min(4, world.topLevel()); ++level) {
-    const teren::BakeRegion regions[] = {{-2, -1, 4, 3, level}, {kFar - 1, -kFar + 3, 2, 2, level}};
+    const teren::BakeRegion regions[] = {{-9, -7, 16, 12, level}, {kFar - 1, -kFar + 3, 6, 5, level}};
     for (const teren::BakeRegion& region : regions) {
       const teren::HeightMap heights = valueOrExit(teren::bake(world, region, options));
       for (const float height : heights.samples()) add(hash, height);
@@ -75,7 +75,7 @@ void addRegions(Fnv1a& hash, const World& world, const teren::BakeOptions& optio
 std::vector<Position> scatteredPositions(const World& world) {
   teren::RandomSequence random(20260101);
   std::vector<Position> positions;
-  for (int count = 0; count < 300; ++count) {
+  for (int count = 0; count < 1000; ++count) {
     const std::int64_t origin = count % 3 == 2 ? kFar : 0;
     const auto fraction = [&] { return std::ldexp(static_cast<double>(random.nextBits(53)), -53); };
     positions.push_back(
