@@ -1,14 +1,17 @@
 // The JSON form of a world description. Every refusal names the source, the key's place and the value.
-#include <cmath>
+#include <algorithm>
 #include <fstream>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <set>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "teren/Quote.h"
 #include "teren/World.h"
 
 namespace teren {
@@ -19,6 +22,8 @@ using nlohmann::json;
 
 constexpr int kMaxDepth = 32;
 constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
+constexpr std::size_t kShownBytes = 40;     ///< of a key or a value in a message
+constexpr std::size_t kShownSource = 1024;  ///< of a file's name
 
 /// A JSON object being read: knows its place for messages, and which of its keys were asked for.
 class ObjectReader {
@@ -29,9 +34,9 @@ class ObjectReader {
     return Error{place_ + (key.empty() ? "" : (place_.empty() ? "" : ".") + std::string(key)) + " " + what};
   }
   Error expected(std::string_view key, const std::string& what) const {
-    std::string value = object_.at(std::string(key)).dump(-1, ' ', false, json::error_handler_t::replace);
-    if (value.size() > 40) value = value.substr(0, 40) + "...";
-    return complaint(key, "is " + value + ", expected " + what);
+    const std::string value =
+        object_.at(std::string(key)).dump(-1, ' ', false, json::error_handler_t::replace);
+    return complaint(key, "is " + shortened(value, kShownBytes) + ", expected " + what);
   }
   Result<void> onlyKeys(std::initializer_list<std::string_view> known) const {
     if (!object_.is_object()) return complaint("", "is not an object");
@@ -39,7 +44,7 @@ class ObjectReader {
       if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
       std::string list;
       for (const std::string_view key : known) list += (list.empty() ? "" : ", ") + std::string(key);
-      return complaint(item.key().substr(0, 40), "is not a known key, expected one of " + list);
+      return complaint(shortened(item.key(), kShownBytes), "is not a known key, expected one of " + list);
     }
     return {};
   }
@@ -115,7 +120,7 @@ class ObjectReader {
       } else if (value.is_number()) {
         entries.emplace_back(name, value.get<double>());
       } else {
-        return complaint(std::string(key) + "." + name.substr(0, 40),
+        return complaint(std::string(key) + "." + shortened(name, kShownBytes),
                          "is neither a number, a text nor true or false");
       }
     }
@@ -211,35 +216,58 @@ Result<WorldDescription> readWorld(const json& object) {
   return world;
 }
 
-/// Parses, refusing what the library would let pass: deep nesting and keys given twice.
-Result<json> parse(std::string_view text) {
-  std::string problem;
-  std::vector<std::set<std::string>> keys;
-  const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
-    if (depth > kMaxDepth) problem = "is nested more than " + std::to_string(kMaxDepth) + " levels deep";
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end && !keys.empty()) keys.pop_back();
-    if (event == json::parse_event_t::key && !keys.empty()) {
-      const auto name = parsed.get<std::string>();
-      if (!keys.back().insert(name).second && problem.empty()) {
-        problem = "has the key \"" + name.substr(0, 40) + "\" twice in one object";
+/// Watches the library parse, for what it would let pass: deep nesting and keys given twice.
+class ParseWatch {
+ public:
+  /// Called by the parser; false drops the value, so that a refused text costs no more memory.
+  bool operator()(int depth, json::parse_event_t event, const json& parsed) {
+    if (!problem_.empty()) return false;
+    if (depth > kMaxDepth) problem_ = "is nested more than " + std::to_string(kMaxDepth) + " levels deep";
+    if (event == json::parse_event_t::object_start) keys_.emplace_back();
+    if (event == json::parse_event_t::object_end && !keys_.empty()) keys_.pop_back();
+    if (event == json::parse_event_t::key && !keys_.empty()) {
+      lastKey_ = parsed.get<std::string>();
+      if (!keys_.back().insert(lastKey_).second) {
+        problem_ = "has the key \"" + shortened(lastKey_, kShownBytes) + "\" twice in one object";
       }
     }
-    return true;
-  };
+    return problem_.empty();
+  }
+
+  const std::string& problem() const noexcept { return problem_; }
+  /// Why the parser gave up.
+  std::string describe(const json::exception& error) const {
+    if (!problem_.empty()) return problem_;
+    if (const auto* syntax = dynamic_cast<const json::parse_error*>(&error)) {
+      return "is not JSON: problem at byte " + std::to_string(syntax->byte);
+    }
+    // What is left is a number beyond the range of double; the library shows it between apostrophes.
+    const std::string_view text = error.what();
+    const std::string_view number = text.substr(std::min(text.find('\''), text.size()));
+    return "has a number that is too large, " + shortened(number, kShownBytes) + ", after the key \"" +
+           shortened(lastKey_, kShownBytes) + "\"";
+  }
+
+ private:
+  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+  std::string lastKey_, problem_;
+};
+
+Result<json> parse(std::string_view text) {
+  ParseWatch watch;
   try {
-    json parsed = json::parse(text, watch);
-    if (!problem.empty()) return Error{problem};
+    json parsed = json::parse(text, std::ref(watch));
+    if (!watch.problem().empty()) return Error{watch.problem()};
     return parsed;
-  } catch (const json::parse_error& error) {
-    return Error{"is not JSON: problem at byte " + std::to_string(error.byte)};
+  } catch (const json::exception& error) {
+    return Error{watch.describe(error)};
   }
 }
 
 }  // namespace
 
 Result<WorldDescription> WorldDescription::fromJson(std::string_view text, std::string_view source) {
-  const std::string name(source);
+  const std::string name = shortened(source, kShownSource);
   if (text.size() > kMaxBytes) return Error{name + " is larger than 16 MiB, which no world description is"};
   const Result<json> parsed = parse(text);
   if (!parsed) return Error{name + " " + parsed.error().message};
@@ -249,17 +277,18 @@ Result<WorldDescription> WorldDescription::fromJson(std::string_view text, std::
 }
 
 Result<WorldDescription> WorldDescription::fromFile(const std::filesystem::path& file) {
+  const std::string name = shortened(file.string(), kShownSource);
   std::error_code problem;
   if (!std::filesystem::is_regular_file(file, problem)) {
-    return Error{file.string() + " is not a file that can be read, expected a world description in JSON"};
+    return Error{name + " is not a file that can be read, expected a world description in JSON"};
   }
   if (std::filesystem::file_size(file, problem) > kMaxBytes) {
-    return Error{file.string() + " is larger than 16 MiB, which no world description is"};
+    return Error{name + " is larger than 16 MiB, which no world description is"};
   }
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
-  if (!stream) return Error{file.string() + " could not be read"};
+  if (!stream) return Error{name + " could not be read"};
   return fromJson(text.str(), file.string());
 }
 
