@@ -18,8 +18,9 @@ constexpr int kMaxPitchShift = 40;
 
 /// k where samples = 2^k + 1, or -1.
 int sideBits(int samples) {
+  if (samples < 2) return -1;
   const auto intervals = static_cast<unsigned>(samples - 1);
-  return samples >= 2 && std::has_single_bit(intervals) ? std::countr_zero(intervals) : -1;
+  return std::has_single_bit(intervals) ? std::countr_zero(intervals) : -1;
 }
 
 Result<int> checkedSideBits(int samples, int least, int most, const std::string& where) {
