@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <set>
+
+#include "teren/Quote.h"
 
 #include "height/Surface.h"
 #include "world/BaseMap.h"
@@ -48,33 +52,28 @@ Result<void> checkRange(const HeightRange& range, const std::string& where) {
                numberText(range.max)};
 }
 
-std::string uniqueName(const std::string& wanted, const std::vector<LayerDescription>& layers) {
-  const auto taken = [&](const std::string& name) {
-    return std::any_of(layers.begin(), layers.end(),
-                       [&](const LayerDescription& l) { return l.name == name; });
-  };
-  std::string name = wanted;
-  for (int number = 2; taken(name); ++number) name = wanted + "-" + std::to_string(number);
-  return name;
-}
-
 /// Gives unnamed layers their default names, in order; refuses two layers of one name.
 Result<std::vector<LayerDescription>> namedLayers(std::vector<LayerDescription> layers) {
+  std::set<std::string> taken;
   for (const LayerDescription& layer : layers) {
-    if (layer.name.empty()) continue;
-    const auto same = std::count_if(layers.begin(), layers.end(),
-                                    [&](const LayerDescription& other) { return other.name == layer.name; });
-    if (same > 1) return Error{"two layers have the name \"" + layer.name + "\", expected each name once"};
+    if (layer.name.empty() || taken.insert(layer.name).second) continue;
+    return Error{"two layers have the name " + inQuotes(layer.name) + ", expected each name once"};
   }
+  std::map<std::string, std::int64_t> repetitions;  // of a generator's id
   for (LayerDescription& layer : layers) {
-    if (layer.name.empty()) layer.name = uniqueName(layer.generator, layers);
+    if (!layer.name.empty()) continue;
+    std::int64_t& number = repetitions[layer.generator];
+    do {
+      ++number;
+      layer.name = number == 1 ? layer.generator : layer.generator + "-" + std::to_string(number);
+    } while (!taken.insert(layer.name).second);
   }
   return layers;
 }
 
 Result<Layer> makeLayer(const LayerDescription& description, const WorldDescription& world, int worldBits,
                         const PluginRegistry& registry, const std::shared_ptr<MessageBox>& messages) {
-  const std::string where = "layer \"" + description.name + "\": ";
+  const std::string where = "layer " + inQuotes(description.name) + ": ";
   const Result<int> bits = checkedSideBits(description.samples, 3, 2049, where);
   if (!bits) return bits.error();
   const Result<int> shift = checkedPitchShift(description.pitch, world.pitch, where);
