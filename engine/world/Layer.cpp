@@ -22,7 +22,7 @@ std::vector<std::string> MessageBox::take() {
 Layer::Layer(std::string name, std::uint64_t worldSeed, double worldPitch, int worldBits, int pitchShift,
              int layerBits, BlendKernel kernel, bool preserveVariance,
              std::shared_ptr<const Generator> generator, std::vector<std::shared_ptr<const Filter>> filters,
-             std::shared_ptr<MessageBox> messages)
+             const HeightRange& range, std::shared_ptr<MessageBox> messages)
     : name_(std::move(name)),
       worldSeed_(worldSeed),
       pitch_(worldPitch * static_cast<double>(std::int64_t{1} << pitchShift)),
@@ -35,10 +35,8 @@ Layer::Layer(std::string name, std::uint64_t worldSeed, double worldPitch, int w
       preserveVariance_(preserveVariance),
       generator_(std::move(generator)),
       filters_(std::move(filters)),
-      range_(generator_->range()),
-      messages_(std::move(messages)) {
-  for (const auto& filter : filters_) range_ = filter->range(range_);
-}
+      range_(range),
+      messages_(std::move(messages)) {}
 
 int Layer::mapLevel(int level) const noexcept {
   return level == 0 ? 0 : std::max(0, level - (worldBits_ + pitchShift_ - layerBits_));

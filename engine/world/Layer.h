@@ -27,10 +27,12 @@ class MessageBox {
 class Layer {
  public:
   /// A checked layer of a world whose patches have 2^worldBits intervals; `pitchShift` is m in
-  /// "pitch = world pitch times 2^m", `layerBits` the logarithm of this layer's intervals a pitch.
+  /// "pitch = world pitch times 2^m", `layerBits` the logarithm of this layer's intervals a pitch, `range`
+  /// what generator and filters together promise.
   Layer(std::string name, std::uint64_t worldSeed, double worldPitch, int worldBits, int pitchShift,
         int layerBits, BlendKernel kernel, bool preserveVariance, std::shared_ptr<const Generator> generator,
-        std::vector<std::shared_ptr<const Filter>> filters, std::shared_ptr<MessageBox> messages);
+        std::vector<std::shared_ptr<const Filter>> filters, const HeightRange& range,
+        std::shared_ptr<MessageBox> messages);
 
   const std::string& name() const noexcept { return name_; }
   BlendKernel kernel() const noexcept { return kernel_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <set>
 
@@ -43,13 +44,31 @@ Result<int> checkedPitchShift(double pitch, double worldPitch, const std::string
                numberText(worldPitch) + " m times 2^m with m from 0 to " + std::to_string(kMaxPitchShift)};
 }
 
-Result<void> checkRange(const HeightRange& range, const std::string& where) {
-  const bool finite = std::isfinite(range.mean) && std::isfinite(range.deviation) &&
-                      std::isfinite(range.min) && std::isfinite(range.max);
+/// Heights beyond this are refused: sums of layers stay far inside the range of float.
+constexpr double kMaxHeight = 1e30;
+
+Result<void> checkRange(const HeightRange& range, const std::string& plugin) {
+  const auto held = [](double height) { return std::fabs(height) <= kMaxHeight; };  // false for NaN
+  const bool finite = held(range.mean) && held(range.deviation) && held(range.min) && held(range.max);
   if (finite && range.deviation >= 0.0 && range.min <= range.mean && range.mean <= range.max) return {};
-  return Error{where + "the plugin promises a range that makes no sense: mean " + numberText(range.mean) +
+  return Error{plugin + " promises a range that makes no sense: mean " + numberText(range.mean) +
                ", deviation " + numberText(range.deviation) + ", min " + numberText(range.min) + ", max " +
                numberText(range.max)};
+}
+
+/// What `promise` of a plugin says, checked; a plugin that throws instead is refused too.
+template <class Promise>
+Result<HeightRange> promisedRange(const Promise& promise, const std::string& plugin) {
+  std::string thrown = "something that is no std::exception";
+  try {
+    const HeightRange range = promise();
+    if (const Result<void> sane = checkRange(range, plugin); !sane) return sane.error();
+    return range;
+  } catch (const std::exception& problem) {
+    thrown = inQuotes(problem.what());
+  } catch (...) {
+  }
+  return Error{plugin + " threw " + thrown + " when asked for its range"};
 }
 
 /// Gives unnamed layers their default names, in order; refuses two layers of one name.
@@ -81,18 +100,19 @@ Result<Layer> makeLayer(const LayerDescription& description, const WorldDescript
   Result<std::shared_ptr<const Generator>> generator =
       registry.makeGenerator(description.generator, description.parameters);
   if (!generator) return Error{where + generator.error().message};
-  HeightRange range = (*generator)->range();
-  if (const Result<void> sane = checkRange(range, where); !sane) return sane.error();
+  Result<HeightRange> range =
+      promisedRange([&] { return (*generator)->range(); }, where + inQuotes(description.generator));
+  if (!range) return range.error();
   std::vector<std::shared_ptr<const Filter>> filters;
   for (const FilterDescription& wanted : description.filters) {
     Result<std::shared_ptr<const Filter>> filter = registry.makeFilter(wanted.filter, wanted.parameters);
     if (!filter) return Error{where + filter.error().message};
-    range = (*filter)->range(range);
-    if (const Result<void> sane = checkRange(range, where); !sane) return sane.error();
+    range = promisedRange([&] { return (*filter)->range(*range); }, where + inQuotes(wanted.filter));
+    if (!range) return range.error();
     filters.push_back(std::move(*filter));
   }
   return Layer(description.name, world.seed, world.pitch, worldBits, *shift, *bits - 1, description.blend,
-               description.preserveVariance, std::move(*generator), std::move(filters), messages);
+               description.preserveVariance, std::move(*generator), std::move(filters), *range, messages);
 }
 
 BaseMap finishedMap(const Layer& layer, const BaseMapKey& key, BaseMapStore& store) {
