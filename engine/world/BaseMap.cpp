@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "teren/Hash.h"
+#include "teren/Parameter.h"
+#include "teren/Quote.h"
 
 namespace teren {
 
@@ -26,7 +28,7 @@ bool BaseMapTask::step(const Slice& slice) {
     if (!stepPlugins(slice)) return false;
     check();
   } catch (const std::exception& problem) {
-    fail(std::string("threw \"") + problem.what() + "\"");
+    fail("threw " + inQuotes(problem.what()));
   } catch (...) {
     fail("threw something that is no std::exception");
   }
@@ -52,8 +54,8 @@ void BaseMapTask::check() {
   const HeightRange& range = layer_.range();
   for (const float height : map_->samples()) {
     if (std::isfinite(height) && height >= range.min && height <= range.max) continue;
-    fail("wrote the height " + std::to_string(height) + ", outside its promised range " +
-         std::to_string(range.min) + " ... " + std::to_string(range.max));
+    fail("wrote the height " + numberText(height) + " m, outside its promised range of " +
+         numberText(range.min) + " to " + numberText(range.max) + " m");
     return;
   }
 }
@@ -63,7 +65,7 @@ void BaseMapTask::fail(const std::string& why) {
   const auto mean = static_cast<float>(layer_.range().mean);
   const HeightView heights = map_->view();
   for (int y = 0; y < heights.rows(); ++y) std::fill_n(heights.row(y), heights.columns(), mean);
-  layer_.report("layer \"" + layer_.name() + "\" at lattice point (" + std::to_string(request_.i) + ", " +
+  layer_.report("layer " + inQuotes(layer_.name()) + " at lattice point (" + std::to_string(request_.i) + ", " +
                 std::to_string(request_.j) + ") " + why + "; its mean is used there instead");
 }
 
