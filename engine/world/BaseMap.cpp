@@ -42,8 +42,12 @@ bool BaseMapTask::stepPlugins(const Slice& slice) {
                              : layer_.filters()[stage_ - 1]->begin(request_, map_->view());
       if (!current_) throw std::runtime_error("begin returned no task");
     }
-    if (!current_->step(slice)) return false;
+    if (!current_->step(slice)) {
+      if (++steps_ == kMaxSteps) throw std::runtime_error("not done after 2^24 steps");
+      return false;
+    }
     current_.reset();
+    steps_ = 0;
     ++stage_;
     if (slice.over() && stage_ <= layer_.filters().size()) return false;
   }
@@ -65,8 +69,8 @@ void BaseMapTask::fail(const std::string& why) {
   const auto mean = static_cast<float>(layer_.range().mean);
   const HeightView heights = map_->view();
   for (int y = 0; y < heights.rows(); ++y) std::fill_n(heights.row(y), heights.columns(), mean);
-  layer_.report("layer " + inQuotes(layer_.name()) + " at lattice point (" + std::to_string(request_.i) + ", " +
-                std::to_string(request_.j) + ") " + why + "; its mean is used there instead");
+  layer_.report("layer " + inQuotes(layer_.name()) + " at lattice point (" + std::to_string(request_.i) +
+                ", " + std::to_string(request_.j) + ") " + why + "; its mean is used there instead");
 }
 
 BaseMap BaseMapStore::find(const BaseMapKey& key) {
