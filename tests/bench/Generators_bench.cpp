@@ -1,0 +1,138 @@
+// Fault formation against its plain version, compiled once for the scalar unit and once for AVX2, and the
+// band filter against its own. Repetitions are interleaved at random; the ratios of the medians come last.
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "teren/HeightMap.h"
+
+#include "generators/fault/FaultFormation.h"
+#include "generators/filter/BandFilter.h"
+#include "generators/filter/BandReference.h"
+#include "tests/support/SlicedWork.h"
+
+namespace teren {
+
+// generators/fault/FaultReference.cpp, compiled under two names (tests/bench/CMakeLists.txt).
+void faultReferenceScalar(const FaultFormation& formation, const MapRequest& request, HeightView out);
+void faultReferenceAvx2(const FaultFormation& formation, const MapRequest& request, HeightView out);
+
+namespace {
+
+constexpr int kSamples = 257;
+const FaultFormation kFormation(150, 4.0);
+const BandFilter kFilter(0.9, 5);
+
+void faultFast(const FaultFormation& formation, const MapRequest& request, HeightView out) {
+  formation.begin(request, out)->step(Slice::unlimited());
+}
+
+using MakeFaults = void (*)(const FaultFormation&, const MapRequest&, HeightView);
+
+void faults(benchmark::State& state, MakeFaults make) {
+  HeightMap map(kSamples, kSamples);
+  MapRequest request{.samples = kSamples};
+  for (auto _ : state) {
+    ++request.seed;
+    make(kFormation, request, map.view());
+    benchmark::DoNotOptimize(map.view().data());
+    benchmark::ClobberMemory();
+  }
+}
+
+HeightMap source() {
+  HeightMap map(kSamples, kSamples);
+  faultFast(kFormation, {.samples = kSamples}, map.view());
+  return map;
+}
+
+void band(benchmark::State& state, bool fast) {
+  HeightMap map = source();
+  for (auto _ : state) {
+    if (fast) {
+      kFilter.begin(map.view())->step(Slice::unlimited());
+    } else {
+      bandReference(kFilter, map.view());
+    }
+    benchmark::ClobberMemory();
+  }
+}
+
+/// Ratios mean something only between programs that do the same.
+bool allAgree() {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const MapRequest request{.seed = seed, .samples = kSamples};
+    HeightMap fast(kSamples, kSamples), scalar(kSamples, kSamples), avx2(kSamples, kSamples);
+    faultFast(kFormation, request, fast.view());
+    faultReferenceScalar(kFormation, request, scalar.view());
+    if (__builtin_cpu_supports("avx2")) {
+      faultReferenceAvx2(kFormation, request, avx2.view());
+    } else {
+      avx2 = scalar;
+    }
+    if (!test::sameBits(fast.view(), scalar.view()) || !test::sameBits(fast.view(), avx2.view()))
+      return false;
+  }
+  return true;
+}
+
+/// Prints as usual and keeps the medians.
+class MedianReporter : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      if (run.aggregate_name == "median") medians_[run.run_name.function_name] = run.GetAdjustedCPUTime();
+    }
+  }
+
+  void printRatio(const char* slow, const char* fast, double wanted) const {
+    if (!medians_.contains(slow) || !medians_.contains(fast)) return;
+    std::printf("%s / %s = %.1f", slow, fast, medians_.at(slow) / medians_.at(fast));
+    if (wanted > 0.0) std::printf(" (wanted: at least %.0f)", wanted);
+    std::printf("\n");
+  }
+
+ private:
+  std::map<std::string, double> medians_;
+};
+
+int runAll(int argc, char** argv) {
+  std::string interleave = "--benchmark_enable_random_interleaving=true";
+  std::string repeat = "--benchmark_repetitions=15";
+  std::string brief = "--benchmark_report_aggregates_only=true";
+  std::vector<char*> arguments{argv[0], interleave.data(), repeat.data(), brief.data()};
+  arguments.insert(arguments.end(), argv + 1, argv + argc);  // the last of two equal options wins
+  int count = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+  if (!allAgree()) {
+    std::fprintf(stderr, "the versions of fault formation disagree\n");
+    return 1;
+  }
+  const auto microseconds = benchmark::kMicrosecond;
+  benchmark::RegisterBenchmark("faults/fast", faults, faultFast)->Unit(microseconds);
+  benchmark::RegisterBenchmark("faults/plain-scalar", faults, faultReferenceScalar)->Unit(microseconds);
+  if (__builtin_cpu_supports("avx2")) {
+    benchmark::RegisterBenchmark("faults/plain-avx2", faults, faultReferenceAvx2)->Unit(microseconds);
+  }
+  benchmark::RegisterBenchmark("band/fast", band, true)->Unit(microseconds);
+  benchmark::RegisterBenchmark("band/plain", band, false)->Unit(microseconds);
+  MedianReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  reporter.printRatio("faults/plain-scalar", "faults/fast", 40.0);
+  reporter.printRatio("faults/plain-avx2", "faults/fast", 15.0);
+  reporter.printRatio("band/plain", "band/fast", 0.0);
+  return 0;
+}
+
+}  // namespace
+}  // namespace teren
+
+int main(int argc, char** argv) {
+  return teren::runAll(argc, argv);
+}
