@@ -34,7 +34,7 @@ WeightBound kernelBound(BlendKernel kernel, double a, double b) {
   return bound;
 }
 
-/// u = w, or w / sqrt(w^2 + (1 - w)^2), whose derivatives by w are below 1.62 and 4 in size on [0, 1].
+/// u = w, or w / sqrt(w^2 + (1 - w)^2).
 std::array<WeightBound, 2> weightBounds(const Layer& layer, double a, double b) {
   const WeightBound kernel = kernelBound(layer.kernel(), a, b);
   const AxisWeights atA = blendWeights(layer.kernel(), a), atB = blendWeights(layer.kernel(), b);
@@ -44,12 +44,12 @@ std::array<WeightBound, 2> weightBounds(const Layer& layer, double a, double b) 
   low.first = high.first = kernel.first;
   low.second = high.second = kernel.second;
   if (layer.preserveVariance()) {
-    constexpr double kFirst = 1.62, kSecond = 4.0;
     const auto normalised = [](double w) { return w / std::sqrt(w * w + (1.0 - w) * (1.0 - w)); };
     low.value = normalised(low.value);
     high.value = normalised(high.value);
-    low.first = high.first = kFirst * kernel.first;
-    low.second = high.second = kSecond * kernel.first * kernel.first + kFirst * kernel.second;
+    low.first = high.first = kNormalisedFirst * kernel.first;
+    low.second = high.second =
+        kNormalisedSecond * kernel.first * kernel.first + kNormalisedFirst * kernel.second;
   }
   return {low, high};
 }

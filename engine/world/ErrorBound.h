@@ -6,6 +6,11 @@
 
 namespace teren {
 
+/// preserveVariance turns a weight w into w / sqrt(w^2 + (1 - w)^2); bounds on the size of that function's
+/// first and second derivative by w on [0, 1] (the extrema are 1.6166 at w = 0.3596 and -3.9508 at w =
+/// 0.6282).
+inline constexpr double kNormalisedFirst = 1.62, kNormalisedSecond = 4.0;
+
 /// [m] A bound on |f - triangles| over a grid square, where f is the layer's part of law 0 and the triangles
 /// join its values at the corners. (t, s) is the square's south-west corner across the lattice cell whose
 /// maps are given, `side` its side, in pitches of the layer; the square must not cross the cell's border.

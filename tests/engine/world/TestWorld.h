@@ -1,0 +1,34 @@
+// Worlds for tests: the project's own plugins, and the modules of this room ("noise", "hostile", "liar").
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "teren/World.h"
+
+namespace teren {
+
+inline const PluginRegistry& testRegistry() {
+  static const std::shared_ptr<const PluginRegistry> registry = [] {
+    std::vector<std::filesystem::path> folders = PluginRegistry::searchPath();
+    folders.emplace_back(TEREN_TEST_WORLD_MODULES);
+    return PluginRegistry::load(folders);
+  }();
+  return *registry;
+}
+
+inline std::shared_ptr<const World> makeTestWorld(const WorldDescription& description) {
+  Result<std::shared_ptr<const World>> world = World::create(description, testRegistry());
+  if (!world) {
+    ADD_FAILURE() << world.error().message;
+    std::abort();
+  }
+  return *world;
+}
+
+}  // namespace teren
