@@ -132,19 +132,20 @@ PieceBound pieceBound(ConstHeightView map, double mean, double t, double s, doub
 double triangleError(const Layer& layer, const CellMaps& maps, double t, double s, double side) {
   const std::array<WeightBound, 2> columns = weightBounds(layer, t, std::min(1.0, t + side));
   const std::array<WeightBound, 2> rows = weightBounds(layer, s, std::min(1.0, s + side));
-  double xx = 0.0, xy = 0.0, yy = 0.0;
+  double deviation = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   for (std::size_t map = 0; map < 4; ++map) {
     const bool east = (map & 1) != 0, north = (map & 2) != 0;
     const WeightBound& u = columns[east ? 1 : 0];
     const WeightBound& v = rows[north ? 1 : 0];
     const PieceBound p = pieceBound(std::as_const(*maps[map]).view(), layer.range().mean,
                                     t + (east ? 0.0 : 1.0), s + (north ? 0.0 : 1.0), side);
+    deviation += u.value * v.value * p.value;
     xx += v.value * (u.second * p.value + 2.0 * u.first * p.x + u.value * p.xx);
     yy += u.value * (v.second * p.value + 2.0 * v.first * p.y + v.value * p.yy);
     xy += u.first * v.first * p.value + u.first * v.value * p.y + u.value * v.first * p.x +
           u.value * v.value * p.xy;
   }
-  return (xx + 2.0 * xy + yy) * side * side / 8.0;
+  return std::min((xx + 2.0 * xy + yy) * side * side / 8.0, 2.0 * deviation);
 }
 
 }  // namespace teren

@@ -18,6 +18,9 @@ inline constexpr double kNormalisedFirst = 1.62, kNormalisedSecond = 4.0;
 /// Linear interpolation over a right triangle with legs h errs by at most h^2/8 (|f_xx| + 2 |f_xy| + |f_yy|).
 /// Since the weights factor, f = mean + sum_ij u_i(x) u_j(y) (H_ij(x, y) - mean), the derivatives follow from
 /// bounds on the kernels (exact extrema over the square) and on the bicubic pieces (Bernstein coefficients).
+/// Where the layer is much finer than the grid a smaller bound holds: both surfaces lie within the same
+/// deviation from the mean, so they differ by at most twice that. Never below the true error; in the standard
+/// world about 9 times it in the median.
 /// Cost: a few microseconds.
 double triangleError(const Layer& layer, const CellMaps& maps, double t, double s, double side);
 

@@ -228,7 +228,7 @@ TEST(ErrorBound, SeesEveryPieceOfAMapFinerThanTheGrid) {
     };
     const Layer layer = makeTestLayer({.worldBits = 2, .pitchShift = 0, .layerBits = 5},
                                       std::make_shared<FieldGenerator>(spike));
-    EXPECT_LE(sharpness(layer, 0.25, 0.25, 0.25), 600.0) << "quarter " << quarter;
+    EXPECT_LE(sharpness(layer, 0.25, 0.25, 0.25), 3.0) << "quarter " << quarter;
   }
 }
 
