@@ -45,8 +45,9 @@ struct PackedNormal {
   friend bool operator==(const PackedNormal&, const PackedNormal&) = default;
 };
 
-/// The largest angle [radian] between a normal of slope <= 10 and its packed form.
-inline constexpr double kPackedNormalError = 5e-4;
+/// The largest angle [radian] between a normal of slope <= 10 and its packed form: half a step in x and in y,
+/// divided by the cosine of the slope.
+inline constexpr double kPackedNormalError = 2.2e-4;
 
 /// The normal of a vertex from its four neighbours [m], `spacing` [m] away each.
 inline PackedNormal vertexNormal(float west, float east, float south, float north, double spacing) noexcept {

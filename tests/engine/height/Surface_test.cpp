@@ -123,7 +123,7 @@ TEST(Surface, PacksNormalsOfSlopesUpToTenWithinTheNamedError) {
   }
   RecordProperty("worst_microradian", static_cast<int>(worst * 1e6L));
   EXPECT_LE(worst, kPackedNormalError);
-  EXPECT_GE(worst, kPackedNormalError / 5.0) << "the named error is far from sharp";
+  EXPECT_GE(worst, 0.9 * kPackedNormalError) << "the named error is far from sharp";
 }
 
 TEST(Surface, HasNormalsThatPointUpAndAwayFromTheRise) {
