@@ -352,6 +352,25 @@ TEST(World, IsContinuousAcrossPatchBordersToTheLastBits) {
   }
 }
 
+TEST(World, IsStraightOverMicrometresHoweverFarAway) {
+  // The slope over 2^-30 of a patch (60 nm) is the slope over 2^-20: no place is rounded on the way.
+  constexpr std::uint64_t kSeed = 80;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomSequence random(kSeed);
+  const auto world = threeLayers("fault", true);
+  for (int trial = 0; trial < 100; ++trial) {
+    const std::int64_t bias = trial % 2 == 0 ? 0 : std::int64_t{1} << 51;
+    const Position at{bias + below(random, 1000), bias - below(random, 1000), 0.99 * uniform(random),
+                      uniform(random)};
+    const auto slope = [&](double step) {
+      Position beside = at;
+      beside.u += step;
+      return (world->height(beside) - world->height(at)) / ((beside.u - at.u) * 64.0);
+    };
+    ASSERT_NEAR(slope(0x1p-30), slope(0x1p-20), 2e-4);
+  }
+}
+
 TEST(World, GivesEveryRouteToAPointTheSameBits) {
   constexpr std::uint64_t kSeed = 76;
   RecordProperty("seed", static_cast<int>(kSeed));
