@@ -20,6 +20,11 @@ std::string withZeroBeforePoint(std::string text) {
   return text;
 }
 
+/// CLI11 takes "-inf" for an option named 'i' and would speak of everything but the number.
+bool isEndlessNumber(std::string_view text) {
+  return text == "-inf" || text == "-infinity" || text == "-nan";
+}
+
 /// "--seed=" would take the next argument for its value.
 bool isOptionWithoutItsValue(std::string_view text) {
   return text.size() > 3 && text.starts_with("--") && text.find('=') == text.size() - 1;
@@ -61,6 +66,9 @@ std::optional<ExitCode> parseCommandLine(CLI::App& application, int argumentCoun
   for (std::string& text : texts) {
     if (isOptionWithoutItsValue(text)) {
       return fail(application, kWrongInput, inQuotes(text) + " has no value after the '='");
+    }
+    if (isEndlessNumber(text)) {
+      return fail(application, kWrongInput, inQuotes(text) + " is not a finite decimal number");
     }
     text = withZeroBeforePoint(std::move(text));
   }

@@ -99,7 +99,10 @@ Result<WorldDescription> WorldOptions::base(const PluginRegistry& registry) cons
   for (const CLI::Option* option : {set_, pitch_, samples_, blend_}) {
     if (option->count() > 0) return Error{option->get_name() + " goes only with --generator"};
   }
-  if (world_->count() > 0) return WorldDescription::fromFile(argument(*world_));
+  if (world_->count() > 0) {
+    if (argument(*world_).empty()) return Error{"--world is \"\" but must name a file"};
+    return WorldDescription::fromFile(argument(*world_));
+  }
   return WorldDescription::standard();
 }
 

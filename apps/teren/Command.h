@@ -32,7 +32,7 @@ class Command {
   CLI::App& application() { return *application_; }
   const CLI::Option* addJson() {
     const std::string doc = "answer in JSON";
-    return application_->add_flag("--json", doc);
+    return application_->add_flag("--json", doc)->disable_flag_override();
   }
   ExitCode fail(ExitCode code, std::string_view sentence) const {
     return teren::fail(*parent_, code, sentence);

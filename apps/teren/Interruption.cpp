@@ -6,7 +6,7 @@
 namespace teren {
 namespace {
 
-constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ};
 
 volatile std::sig_atomic_t signalCame = 0;
 std::array<struct sigaction, kSignals.size()> formerActions;
@@ -23,7 +23,7 @@ Interruption::Interruption() {
     sigaction(kSignals[k], nullptr, &formerActions[k]);
     if (formerActions[k].sa_handler == SIG_IGN) continue;  // nohup and the like mean it
     struct sigaction action {};
-    action.sa_handler = &note;
+    action.sa_handler = kSignals[k] == SIGXFSZ ? SIG_IGN : &note;
     sigemptyset(&action.sa_mask);
     action.sa_flags = SA_RESTART;
     sigaction(kSignals[k], &action, nullptr);

@@ -3,7 +3,8 @@
 
 namespace teren {
 
-/// While one lives, SIGINT, SIGTERM and SIGHUP only set a flag. At most one at a time.
+/// While one lives, SIGINT, SIGTERM and SIGHUP only set a flag, and a file that grows beyond its limit is an
+/// error of the write (EFBIG) instead of the end. At most one at a time.
 class Interruption {
  public:
   Interruption();

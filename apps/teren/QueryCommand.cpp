@@ -60,7 +60,7 @@ class QueryCommand final : public Command {
         points_(application()
                     .add_option("POINTS", "X Y [X Y]...: metres east and north of the world's zero")
                     ->expected(2, kMostArguments)
-                    ->allow_extra_args(false)
+                    ->allow_extra_args()
                     ->required()),
         json_(addJson()) {}
 

@@ -147,12 +147,19 @@ Result<const PluginDescription*> PluginRegistry::describe(std::string_view id, P
   for (const PluginInfo& plugin : plugins_) {
     if (plugin.kind == kind) known += (known.empty() ? "" : ", ") + plugin.id;
   }
-  const std::string list = known.empty() ? "there are none" : "there are " + known;
+  const std::string list = known.empty() ? "; there are none" : "; there are " + known;
   if (info != nullptr) {
     return Error{"plugin " + inQuotes(id) + " is a " + kindName(info->kind) + ", not a " + kindName(kind) +
-                 "; " + list};
+                 list};
   }
-  return Error{std::string("no ") + kindName(kind) + " has the id " + inQuotes(id) + "; " + list};
+  const auto refused = std::find_if(refused_.begin(), refused_.end(), [id](const RefusedModule& module) {
+    return pluginIdFromFile(module.file) == id;
+  });
+  if (refused != refused_.end()) {
+    return Error{"no " + std::string(kindName(kind)) + " has the id " + inQuotes(id) + ", because " +
+                 shortened(refused->file.string(), kSentenceBytes) + " was refused: " + refused->reason};
+  }
+  return Error{std::string("no ") + kindName(kind) + " has the id " + inQuotes(id) + list};
 }
 
 Result<std::shared_ptr<const Generator>> PluginRegistry::makeGenerator(

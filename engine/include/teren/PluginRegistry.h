@@ -54,7 +54,8 @@ class PluginRegistry {
   const PluginInfo* find(std::string_view id) const noexcept;
 
   /// Checks the entries against the plugin's table and makes it. Errors: unknown id (the sentence lists the
-  /// known ones), an id of another kind, a bad value, a constructor that throws.
+  /// known ones, or tells why its module was refused), an id of another kind, a bad value, a constructor that
+  /// throws.
   Result<std::shared_ptr<const Generator>> makeGenerator(std::string_view id,
                                                          std::span<const Values::Entry> entries) const;
   Result<std::shared_ptr<const Filter>> makeFilter(std::string_view id,

@@ -190,6 +190,14 @@ TEST(PluginRegistry, NamesWhatItHasWhenAnIdIsUnknown) {
             "no generator has the id \"fault\"; there are none");
 }
 
+TEST(PluginRegistry, TellsWhyAPluginIsMissingWhenItsModuleWasRefused) {
+  const auto registry = loadFrom({kModules / "broken"});
+  EXPECT_EQ(registry->makeGenerator("no-symbol", {}).error().message,
+            "no generator has the id \"no-symbol\", because " +
+                (kModules / "broken" / "teren-no-symbol.so").string() +
+                " was refused: it does not export the function terenPlugin");
+}
+
 TEST(PluginRegistry, ChecksParametersBeforeThePluginSeesThem) {
   const auto registry = loadFrom({kModules / "good"});
   const std::array tooHigh = {Values::Entry("height", 1e9)};
