@@ -28,7 +28,8 @@ bool isPluginId(std::string_view id) noexcept;
 
 /// Loads the file with RTLD_NOW | RTLD_LOCAL, which runs its static initialisers, and checks its description
 /// and table. The sentence of a refusal does not repeat the file's name. What is refused is unloaded again.
-/// One thread at a time.
+/// A static initialiser that throws or crashes ends the process: the loader lets nobody catch that. One
+/// thread at a time.
 Result<Module> openModule(const std::filesystem::path& file);
 
 /// Every word that differs between `module` and the engine, or is known to one side only, by name and with
