@@ -50,6 +50,8 @@ class Program {
     setenv("TEREN_PLUGIN_PATH", TEREN_TEST_MODULES "/good:" TEREN_TEST_MODULES "/broken", 1);
     const rlimit limit = {settings.largestFile, settings.largestFile};
     setrlimit(RLIMIT_FSIZE, &limit);
+    // Whatever it writes by mistake goes with the folder.
+    if (chdir(folder_.path().c_str()) != 0) _exit(127);
     execv(TEREN_PROGRAM, pointers.data());
     _exit(127);
   }
