@@ -19,7 +19,8 @@ namespace teren {
 /// height = deviation / sqrt(variance) * sum, computed in double and rounded once to float.
 ///
 /// Work: proportional to faults * side + side^2, where the plain way (FaultReference.h) costs
-/// faults * side^2. Immutable; any number of tasks may run at once, on any threads.
+/// faults * side^2. A task asks whether its slice is over every 0.5 to 4 us (25 us at a side of 2049).
+/// Immutable; any number of tasks may run at once, on any threads.
 class FaultFormation {
  public:
   static constexpr int kMaxFaults = 65535;  ///< the largest whose sum fits 32 bits
