@@ -104,8 +104,9 @@ TEST(Engine, NeverPublishesACrackBetweenDrawnNodes) {
   flight.engine->settle();
   std::uint64_t serial = 0;
   int published = 0;
-  // A winding path; tiny budgets, so that many snapshots are taken half way.
-  for (int step = 0; step < 400; ++step) {
+  // A winding path; tiny budgets, so that many snapshots are taken half way. Slow machines (and sanitizers)
+  // fly on until they have shown as many.
+  for (int step = 0; step < 400 || (published <= 20 && step < 20'000); ++step) {
     const double angle = 0.02 * step;
     const auto place = Position::fromMetres(4.0 * step, 300.0 * std::sin(angle), flight.world->pitch());
     flight.puppet->moveTo(*place);
