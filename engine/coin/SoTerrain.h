@@ -1,0 +1,126 @@
+// The landscape as an Open Inventor node: put a SoTerrain into a scene graph and fly over it.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include <Inventor/fields/SoMFString.h>
+#include <Inventor/fields/SoSFColor.h>
+#include <Inventor/fields/SoSFFloat.h>
+#include <Inventor/fields/SoSFInt32.h>
+#include <Inventor/fields/SoSFString.h>
+#include <Inventor/fields/SoSFTime.h>
+#include <Inventor/fields/SoSFVec3d.h>
+#include <Inventor/nodes/SoSubNode.h>
+
+namespace teren {
+class Engine;
+class Scene;
+}  // namespace teren
+
+/// Draws a Teren landscape, x east, y north, z up, in metres, with its water and its haze.
+///
+/// It can be fed in two ways:
+/// * by its fields alone, as in an .iv file. The node then owns a teren::Engine whose viewpoint is the eye of
+/// the
+///   last GL traversal, and works at what is missing from a timer of its own, for at most `frameBudget` at a
+///   time, never inside a traversal. The timer rests while nothing is missing and the eye stands still. With
+///   several viewers the landscape follows whichever drew last.
+/// * by a program that drives an engine of its own and calls setScene() after every Engine::update().
+///
+/// Meshes are hidden children: they can be picked and searched for, and are not written.
+/// Drawing needs OpenGL 2.1; without shaders, or with TEREN_NO_SHADERS=1 in the environment, a plainer
+/// fixed-function drawing takes their place. The first directional light of the scene is the sun; without one
+/// the sun stands in the south-west, 35 degrees high.
+/// All calls from the thread that owns the scene graph.
+///
+/// FILE FORMAT/DEFAULTS:
+/// \code
+///   SoTerrain {
+///     seed          ""                # whole number 0 ... 2^64 - 1; empty: the world's own
+///     world         ""                # a world file (JSON); empty: the world shipped with Teren, or
+///     generator     ""                # a world of one layer made by this generator plugin
+///     parameters    []                # of the generator, "name=value"
+///     viewDistance  1500              # [m]
+///     viewLevel     2                 # 0: finest
+///     frameBudget   0.004             # [s]
+///     waterLevel    -150              # [m]
+///     origin        0 0 0             # [m]
+///     hazeColor     0.76 0.84 0.92
+///   }
+/// \endcode
+class SoTerrain : public SoNode {
+  typedef SoNode inherited;  // NOLINT: the name SO_NODE_HEADER expects
+
+  SO_NODE_HEADER(SoTerrain);  // NOLINT
+
+ public:
+  /// Registers the node; SoDB::init() first. May be called more than once. Reading an .iv file calls it by
+  /// itself where the dynamic linker finds libSoTerrain.so.
+  static void initClass();
+  SoTerrain();
+
+  /// The world. A change makes a new engine, once for all changes made together; what it refuses is reported
+  /// through SoDebugError and errorText(), and the landscape before stays. A relative `world` read from a
+  /// file is looked for in the folder of that file too.
+  SoSFString seed, world, generator;
+  SoMFString parameters;
+
+  /// [m] The haze is total there; > 0, at most 64 nodes of `viewLevel`. Triangles grow with its square.
+  SoSFFloat viewDistance;
+  /// The uniform level of the ground, 0 (finest) ... World::topLevel(); each step draws a quarter of the
+  /// triangles per area.
+  SoSFInt32 viewLevel;
+  /// [s] How long each update may work, 0 ... 1. More fills the view sooner and costs frame rate meanwhile.
+  SoSFTime frameBudget;
+
+  /// [m] The water's surface. -1e6 or less (and anything not finite) means a dry world: no water is drawn.
+  /// Water is never picked.
+  SoSFFloat waterLevel;
+  /// [m] World position of the scene's zero. Move it along with the camera: scene coordinates are floats, so
+  /// keep them below some ten kilometres. Costs nothing to change; what is not finite is refused.
+  SoSFVec3d origin;
+  /// What the ground fades into; give the background the same colour.
+  SoSFColor hazeColor;
+
+  /// Shows this snapshot; from now on the node has no engine, and the fields that describe the world, the
+  /// view level and the budget are ignored (viewDistance is the haze's). Cheap when the snapshot is the one
+  /// shown. Snapshots must come from one engine, or be empty in between. nullptr: back to the fields.
+  void setScene(std::shared_ptr<const teren::Scene> scene);
+  /// The snapshot shown, never null.
+  std::shared_ptr<const teren::Scene> scene() const;
+
+  /// The node's own engine, made now if a field has changed; nullptr after setScene() or where the fields
+  /// have never been good. It dies with the next good change of a field.
+  teren::Engine* engine();
+  /// Works without drawing until everything the view wants is there, and shows it. For pictures and tests:
+  /// takes seconds. Without an engine it does nothing.
+  void settle();
+  /// One sentence about what is wrong with the fields; empty where nothing is.
+  const SbString& errorText();
+
+  /// Bytes of all vertex and index buffers the node holds in all GL contexts.
+  std::size_t bufferBytes() const;
+  /// Triangles of ground drawn by the last GL traversal, after culling.
+  std::size_t drawnTriangles() const;
+
+  SbBool affectsState() const override;
+  void notify(SoNotList* list) override;
+  SoChildList* getChildren() const override;
+  void doAction(SoAction* action) override;
+  void callback(SoCallbackAction* action) override;
+  void GLRender(SoGLRenderAction* action) override;
+  void getBoundingBox(SoGetBoundingBoxAction* action) override;
+  void getMatrix(SoGetMatrixAction* action) override;
+  void getPrimitiveCount(SoGetPrimitiveCountAction* action) override;
+  void rayPick(SoRayPickAction* action) override;
+  void search(SoSearchAction* action) override;
+
+ protected:
+  ~SoTerrain() override;
+  SbBool readInstance(SoInput* input, unsigned short flags) override;
+
+ private:
+  class Private;
+  std::unique_ptr<Private> private_;
+};
