@@ -1,0 +1,41 @@
+// Draws the ground without shaders, for OpenGL before 2.1 and for TEREN_NO_SHADERS=1: coloured, lit and
+// placed by the processor, hazed by GL's fog.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "TerrainPainter.h"
+
+namespace teren {
+
+/// Keeps, in the program's own memory, the vertices of each mesh it has drawn: positions relative to the
+/// reference sample, made from whole numbers as the shaders do it, so that shared vertices are equal bit for
+/// bit. They are made again when the reference, the sun or the water level changes; 16 bytes a vertex.
+class PlainPainter final : public TerrainPainter {
+ public:
+  PlainPainter() = default;
+
+  void draw(const Picture& picture, std::span<const Mesh* const> meshes) override;
+  void forget(const Mesh& mesh) override { vertices_.erase(&mesh); }
+  void release() override { vertices_.clear(); }
+  std::size_t bytes() const noexcept override { return 0; }
+
+ private:
+  struct Vertex {
+    float x, y, z;
+    std::array<std::uint8_t, 4> colour;
+  };
+  static std::vector<Vertex> build(const Mesh& mesh, const Sample& reference, const Picture& picture);
+  void drawGround(const Picture& picture, std::span<const Mesh* const> meshes);
+
+  Sample reference_;
+  SbVec3f sun_{0.0F, 0.0F, 0.0F};
+  float waterLevel_ = 0.0F;
+  double spacing_ = 0.0;
+  std::unordered_map<const Mesh*, std::vector<Vertex>> vertices_;
+};
+
+}  // namespace teren

@@ -1,0 +1,275 @@
+#include "ShaderPainter.h"
+
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include "GroundTexture.h"
+#include "OpenGL.h"
+#include "TerrainShaders.h"
+
+namespace teren {
+namespace {
+
+std::string programLog(GLuint program) {
+  std::array<char, 512> text{};
+  glGetProgramInfoLog(program, static_cast<GLsizei>(text.size()), nullptr, text.data());
+  return text.data();
+}
+
+void attach(GLuint program, GLenum kind, const char* source) {
+  const GLuint shader = glCreateShader(kind);
+  glShaderSource(shader, 1, &source, nullptr);
+  glCompileShader(shader);
+  glAttachShader(program, shader);
+  glDeleteShader(shader);  // lives as long as the program
+}
+
+bool glslThere() {
+  const auto* version = reinterpret_cast<const char*>(glGetString(GL_SHADING_LANGUAGE_VERSION));
+  int major = 0;
+  int minor = 0;
+  if (version == nullptr || std::sscanf(version, "%d.%d", &major, &minor) != 2) return false;
+  return major > 1 || (major == 1 && minor >= 20);
+}
+
+/// Restores what drawing changes, so that Inventor's own idea of GL's state stays true.
+class SavedState {
+ public:
+  SavedState() {
+    glGetIntegerv(GL_CURRENT_PROGRAM, &program_);
+    glPushAttrib(GL_COLOR_BUFFER_BIT | GL_CURRENT_BIT | GL_ENABLE_BIT | GL_POLYGON_BIT | GL_TEXTURE_BIT);
+    glPushClientAttrib(GL_CLIENT_VERTEX_ARRAY_BIT);
+  }
+  SavedState(const SavedState&) = delete;
+  SavedState& operator=(const SavedState&) = delete;
+  ~SavedState() {
+    glUseProgram(static_cast<GLuint>(program_));
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+    glPopClientAttrib();
+    glPopAttrib();
+  }
+
+ private:
+  GLint program_ = 0;
+};
+
+const void* at(const std::byte* start, std::size_t offset) {
+  return reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(start) + offset);
+}
+
+void pointAttributes(const std::byte* vertices) {
+  constexpr GLsizei kStride = sizeof(SurfaceVertex);
+  glVertexAttribPointer(kCell, 2, GL_SHORT, GL_FALSE, kStride, at(vertices, offsetof(SurfaceVertex, column)));
+  glVertexAttribPointer(kHeight, 1, GL_FLOAT, GL_FALSE, kStride,
+                        at(vertices, offsetof(SurfaceVertex, height)));
+  glVertexAttribPointer(kSlope, 2, GL_SHORT, GL_FALSE, kStride,
+                        at(vertices, offsetof(SurfaceVertex, normalX)));
+}
+
+constexpr int kWaterRings = 32;
+constexpr int kWaterSectors = 64;
+
+/// x and y of the disc's vertices: the centre, then ring by ring, denser inside.
+std::vector<float> discVertices() {
+  std::vector<float> vertices{0.0F, 0.0F};
+  for (int ring = 1; ring <= kWaterRings; ++ring) {
+    const double radius = std::pow(static_cast<double>(ring) / kWaterRings, 2.0);
+    for (int sector = 0; sector < kWaterSectors; ++sector) {
+      const double angle = 2.0 * std::numbers::pi * sector / kWaterSectors;
+      vertices.push_back(static_cast<float>(radius * std::cos(angle)));
+      vertices.push_back(static_cast<float>(radius * std::sin(angle)));
+    }
+  }
+  return vertices;
+}
+
+std::vector<std::uint16_t> discTriangles() {
+  const auto vertex = [](int ring, int sector) {
+    return static_cast<std::uint16_t>(ring == 0 ? 0
+                                                : 1 + (ring - 1) * kWaterSectors + sector % kWaterSectors);
+  };
+  std::vector<std::uint16_t> triangles;
+  for (int ring = 0; ring < kWaterRings; ++ring) {
+    for (int sector = 0; sector < kWaterSectors; ++sector) {
+      const std::uint16_t outer = vertex(ring + 1, sector);
+      const std::uint16_t nextOuter = vertex(ring + 1, sector + 1);
+      triangles.insert(triangles.end(), {vertex(ring, sector), outer, nextOuter});
+      if (ring > 0)
+        triangles.insert(triangles.end(), {vertex(ring, sector), nextOuter, vertex(ring, sector + 1)});
+    }
+  }
+  return triangles;
+}
+
+template <class T>
+std::size_t uploadOnce(GLenum target, unsigned& name, const std::vector<T>& data) {
+  glGenBuffers(1, &name);
+  glBindBuffer(target, name);
+  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STATIC_DRAW);
+  return data.size() * sizeof(T);
+}
+
+}  // namespace
+
+Result<ShaderProgram> ShaderProgram::link(const char* vertexShader, const char* fragmentShader,
+                                          std::span<const char* const> attributes) {
+  ShaderProgram program;
+  program.name_ = glCreateProgram();
+  attach(program.name_, GL_VERTEX_SHADER, vertexShader);
+  attach(program.name_, GL_FRAGMENT_SHADER, fragmentShader);
+  for (GLuint number = 0; number < attributes.size(); ++number) {
+    glBindAttribLocation(program.name_, number, attributes[number]);
+  }
+  glLinkProgram(program.name_);
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program.name_, GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return program;
+  Error error{"the shaders were refused: " + programLog(program.name_)};
+  program.release();
+  return error;
+}
+
+void ShaderProgram::use() const {
+  glUseProgram(name_);
+}
+
+void ShaderProgram::set(const char* name, float value) const {
+  glUniform1f(glGetUniformLocation(name_, name), value);
+}
+
+void ShaderProgram::set(const char* name, float x, float y) const {
+  glUniform2f(glGetUniformLocation(name_, name), x, y);
+}
+
+void ShaderProgram::set(const char* name, const SbVec3f& value) const {
+  glUniform3fv(glGetUniformLocation(name_, name), 1, value.getValue());
+}
+
+void ShaderProgram::set(const char* name, const SbDPMatrix& matrix) const {
+  std::array<float, 16> values{};  // Inventor's rows are GL's columns
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      values[static_cast<std::size_t>(row * 4 + column)] = static_cast<float>(matrix[row][column]);
+    }
+  }
+  glUniformMatrix4fv(glGetUniformLocation(name_, name), 1, GL_FALSE, values.data());
+}
+
+void ShaderProgram::release() {
+  glDeleteProgram(name_);
+  name_ = 0;
+}
+
+Result<std::unique_ptr<TerrainPainter>> ShaderPainter::create() {
+  if (!glslThere()) return Error{"OpenGL offers no shading language 1.20 here"};
+  constexpr std::array<const char*, 4> kGround{"cell", "height", "slope", "place"};
+  constexpr std::array<const char*, 1> kWater{"cell"};
+  Result<ShaderProgram> ground = ShaderProgram::link(kGroundVertexShader, kGroundFragmentShader, kGround);
+  if (!ground) return ground.error();
+  Result<ShaderProgram> water = ShaderProgram::link(kWaterVertexShader, kWaterFragmentShader, kWater);
+  if (!water) {
+    ground->release();
+    return water.error();
+  }
+  return std::unique_ptr<TerrainPainter>(new ShaderPainter(*ground, *water));
+}
+
+ShaderPainter::ShaderPainter(ShaderProgram ground, ShaderProgram water) : ground_(ground), water_(water) {
+  const SavedState saved;
+  makeNoise();
+  makeWater();
+}
+
+void ShaderPainter::release() {
+  buffers_.clear();
+  ground_.release();
+  water_.release();
+  glDeleteTextures(1, &noise_);
+  glDeleteBuffers(1, &waterVertices_);
+  glDeleteBuffers(1, &waterIndices_);
+  waterBytes_ = 0;
+}
+
+void ShaderPainter::makeNoise() {
+  static const std::vector<std::uint8_t> texels = groundTexture();
+  glGenTextures(1, &noise_);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, noise_);
+  glTexParameteri(GL_TEXTURE_2D, GL_GENERATE_MIPMAP, GL_TRUE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kGroundTextureSide, kGroundTextureSide, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, texels.data());
+}
+
+void ShaderPainter::makeWater() {
+  const std::vector<std::uint16_t> triangles = discTriangles();
+  waterCount_ = static_cast<int>(triangles.size());
+  waterBytes_ = uploadOnce(GL_ARRAY_BUFFER, waterVertices_, discVertices());
+  waterBytes_ += uploadOnce(GL_ELEMENT_ARRAY_BUFFER, waterIndices_, triangles);
+}
+
+void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
+  const SavedState saved;
+  buffers_.frame();
+  const Sample reference = picture.placement.referenceNear(picture.eye);
+  const SbVec3d corner = picture.placement.position(reference);
+  SbDPMatrix toClip;
+  toClip.setTranslate(corner);
+  toClip.multRight(picture.toEye);
+  toClip.multRight(picture.toClip);
+  const SbVec3f eye = picture.eye - SbVec3f(corner);
+  for (const ShaderProgram* program : {&ground_, &water_}) {
+    program->use();
+    program->set("toClip", toClip);
+    program->set("spacing", static_cast<float>(picture.placement.spacing()));
+    program->set("sun", picture.sun);
+    program->set("viewDistance", picture.viewDistance);
+    program->set("waterLevel", picture.waterLevel);
+    program->set("haze", picture.haze);
+  }
+  water_.set("eye", eye);
+  ground_.use();
+  ground_.set("eye", eye[0], eye[1]);
+
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, noise_);
+  drawGround(reference, meshes);
+  if (picture.water) drawWater();
+}
+
+void ShaderPainter::drawGround(const Sample& reference, std::span<const Mesh* const> meshes) {
+  constexpr std::int64_t kExact = std::int64_t{1} << 23;  // leaves room for the mesh itself below 2^24
+  glDisable(GL_BLEND);
+  for (const GLuint attribute : {kCell, kHeight, kSlope}) glEnableVertexAttribArray(attribute);
+  for (const Mesh* mesh : meshes) {
+    const std::int64_t column = mesh->originColumn - reference.column;
+    const std::int64_t row = mesh->originRow - reference.row;
+    if (std::abs(column) > kExact || std::abs(row) > kExact) continue;  // thousands of kilometres away
+    const TerrainBuffers::Start start = buffers_.bind(*mesh);
+    pointAttributes(start.vertices);
+    glVertexAttrib3f(kPlace, static_cast<float>(column), static_cast<float>(row),
+                     static_cast<float>(std::int64_t{1} << mesh->level));
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh->indices->size()), GL_UNSIGNED_INT, start.indices);
+  }
+  for (const GLuint attribute : {kHeight, kSlope}) glDisableVertexAttribArray(attribute);
+}
+
+void ShaderPainter::drawWater() const {
+  water_.use();
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glBindBuffer(GL_ARRAY_BUFFER, waterVertices_);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, waterIndices_);
+  glEnableVertexAttribArray(kCell);
+  glVertexAttribPointer(kCell, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glDrawElements(GL_TRIANGLES, waterCount_, GL_UNSIGNED_SHORT, nullptr);
+}
+
+}  // namespace teren

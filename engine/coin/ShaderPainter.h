@@ -1,0 +1,57 @@
+// Draws ground and water with GLSL: what SoTerrain looks like wherever OpenGL 2.1 is to be had.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "teren/Result.h"
+
+#include "TerrainBuffers.h"
+#include "TerrainPainter.h"
+
+namespace teren {
+
+/// A vertex and a fragment shader, linked. Uniforms that a program does not use are passed over, as GL does.
+class ShaderProgram {
+ public:
+  ShaderProgram() = default;
+  /// `attributes` are bound to the numbers 0, 1, 2 ... in order. The error is GL's log.
+  static Result<ShaderProgram> link(const char* vertexShader, const char* fragmentShader,
+                                    std::span<const char* const> attributes);
+  void use() const;
+  void set(const char* name, float value) const;
+  void set(const char* name, float x, float y) const;
+  void set(const char* name, const SbVec3f& value) const;
+  void set(const char* name, const SbDPMatrix& matrix) const;
+  void release();
+
+ private:
+  unsigned name_ = 0;
+};
+
+class ShaderPainter final : public TerrainPainter {
+ public:
+  /// Fails where the context has no GLSL 1.20 or does not take the programs.
+  static Result<std::unique_ptr<TerrainPainter>> create();
+
+  void draw(const Picture& picture, std::span<const Mesh* const> meshes) override;
+  void forget(const Mesh& mesh) override { buffers_.forget(mesh); }
+  void release() override;
+  std::size_t bytes() const noexcept override { return buffers_.bytes() + waterBytes_; }
+
+ private:
+  ShaderPainter(ShaderProgram ground, ShaderProgram water);
+  void makeNoise();
+  void makeWater();
+  void drawGround(const Sample& reference, std::span<const Mesh* const> meshes);
+  void drawWater() const;
+
+  ShaderProgram ground_, water_;
+  TerrainBuffers buffers_;
+  unsigned noise_ = 0;
+  unsigned waterVertices_ = 0, waterIndices_ = 0;
+  int waterCount_ = 0;
+  std::size_t waterBytes_ = 0;
+};
+
+}  // namespace teren

@@ -1,0 +1,40 @@
+// One mesh of a landscape's snapshot as a shape: what SoTerrain's hidden children are.
+#pragma once
+
+#include <memory>
+
+#include <Inventor/nodes/SoShape.h>
+#include <Inventor/nodes/SoSubNode.h>
+
+#include "teren/Scene.h"
+
+/// Picking, bounding boxes, callbacks and searches see each mesh as this shape, in metres east and north of
+/// its own south-west vertex and at absolute height; SoTerrain moves it into place. SoTerrain itself draws
+/// all of its meshes at once; a mesh drawn alone goes the plain way of shapes. Immutable; made only by
+/// programs, never read from files, and without fields.
+class SoTerrainMesh : public SoShape {
+  typedef SoShape inherited;  // NOLINT: the name SO_NODE_HEADER expects
+
+  SO_NODE_HEADER(SoTerrainMesh);  // NOLINT
+
+ public:
+  static void initClass();
+  /// Without a mesh: an empty shape.
+  SoTerrainMesh();
+  /// `spacing` [m] between level-0 samples.
+  SoTerrainMesh(std::shared_ptr<const teren::Mesh> mesh, double spacing);
+
+  /// nullptr for an empty shape.
+  const std::shared_ptr<const teren::Mesh>& mesh() const noexcept { return mesh_; }
+
+  void getPrimitiveCount(SoGetPrimitiveCountAction* action) override;
+
+ protected:
+  ~SoTerrainMesh() override;
+  void computeBBox(SoAction* action, SbBox3f& box, SbVec3f& center) override;
+  void generatePrimitives(SoAction* action) override;
+
+ private:
+  std::shared_ptr<const teren::Mesh> mesh_;
+  float step_ = 1.0F;  // [m] between the mesh's own samples
+};

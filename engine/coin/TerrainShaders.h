@@ -1,0 +1,119 @@
+// The GLSL programs that draw ground and water, for OpenGL 2.1.
+#pragma once
+
+namespace teren {
+
+/// Numbers of the vertex attributes.
+enum GroundAttribute : unsigned { kCell = 0, kHeight = 1, kSlope = 2, kPlace = 3 };
+
+/// Watertight by arithmetic: `cell * place.z + place.xy` is a whole number below 2^24, so it is exact and
+/// equal for the shared vertices of neighbouring meshes, whichever mesh it is counted from; everything after
+/// it is the same computation on the same numbers.
+inline constexpr char kGroundVertexShader[] = R"(#version 120
+invariant gl_Position;
+attribute vec2 cell;     // column and row in the mesh
+attribute float height;  // [m]
+attribute vec2 slope;    // x and y of the unit normal, times 32767
+attribute vec3 place;    // the mesh's origin counted from the reference sample, and its step
+uniform mat4 toClip;
+uniform float spacing;       // [m]
+uniform vec2 eye;            // [m] from the reference sample
+uniform vec3 sun;            // towards it
+uniform float viewDistance;  // [m]
+varying vec2 samples;
+varying vec4 ground;  // height, gradient, sunlight, haze
+
+void main() {
+  samples = cell * place.z + place.xy;
+  vec3 position = vec3(samples * spacing, height);
+  gl_Position = toClip * vec4(position, 1.0);
+
+  vec2 flat_ = slope * (1.0 / 32767.0);
+  float squared = dot(flat_, flat_);
+  float up = sqrt(max(1.0 - squared, 1e-4));
+  float share = min(distance(position.xy, eye) / viewDistance, 1.0);
+  float cube = share * share * share;
+  ground = vec4(height, sqrt(squared) / up, max(dot(vec3(flat_, up), sun), 0.0),
+                1.0 - exp(-1.1 * share) * (1.0 - cube * cube));
+}
+)";
+
+inline constexpr char kGroundFragmentShader[] = R"(#version 120
+uniform sampler2D noise;
+uniform vec3 haze;
+uniform float waterLevel;  // [m]
+varying vec2 samples;
+varying vec4 ground;
+
+void main() {
+  vec4 broad = texture2D(noise, samples * (1.0 / 1024.0)) - 0.5;
+  vec4 fine = texture2D(noise, samples * (1.0 / 64.0)) - 0.5;
+  float height = ground.x + 150.0 * broad.r + 25.0 * fine.r;
+  float steep = ground.y + 0.3 * broad.g + 0.35 * fine.g;
+
+  vec3 grass = mix(vec3(0.26, 0.34, 0.13), vec3(0.40, 0.41, 0.20), clamp(0.5 + 2.0 * broad.b + fine.b, 0.0, 1.0));
+  vec3 forest = vec3(0.13, 0.21, 0.10) * (1.0 + 0.9 * fine.a);
+  float trees = smoothstep(0.02, 0.10, broad.a + 0.35 * fine.b) * smoothstep(260.0, 120.0, height);
+  vec3 alpine = vec3(0.43, 0.41, 0.27);
+  vec3 colour = mix(mix(grass, alpine, smoothstep(120.0, 380.0, height)), forest, trees);
+
+  vec3 rock = vec3(0.43, 0.40, 0.37) * (1.0 + 0.7 * fine.b + 0.6 * broad.b);
+  colour = mix(colour, rock, smoothstep(0.50, 0.72, steep));
+  float snow = smoothstep(420.0, 480.0, height) * smoothstep(1.05, 0.70, steep);
+  colour = mix(colour, vec3(0.93, 0.95, 0.99), snow);
+
+  float depth = waterLevel - ground.x;
+  float shore = smoothstep(-7.0, -2.5, depth + 8.0 * fine.r) * smoothstep(0.75, 0.45, steep);
+  colour = mix(colour, vec3(0.74, 0.67, 0.50) * (1.0 + 0.3 * fine.a), shore);
+
+  colour *= (1.0 + 0.35 * fine.g + 0.3 * broad.g) * (vec3(0.40, 0.46, 0.56) + vec3(0.98, 0.90, 0.76) * ground.z);
+  colour = mix(vec3(0.05, 0.16, 0.22), colour, exp(-0.09 * max(depth, 0.0)));
+  gl_FragColor = vec4(mix(colour, haze, ground.w), 1.0);
+}
+)";
+
+/// A disc around the eye at the water's level.
+inline constexpr char kWaterVertexShader[] = R"(#version 120
+attribute vec2 cell;  // in the unit disc
+uniform mat4 toClip;
+uniform float spacing;       // [m]
+uniform vec3 eye;            // [m] from the reference sample; the height is absolute
+uniform float viewDistance;  // [m]
+uniform float waterLevel;    // [m]
+varying vec2 samples;
+varying vec4 view;  // from the eye, and the haze
+
+void main() {
+  vec3 position = vec3(eye.xy + cell * viewDistance, waterLevel);
+  gl_Position = toClip * vec4(position, 1.0);
+  samples = position.xy / spacing;
+  float share = min(length(cell), 1.0);
+  float cube = share * share * share;
+  view = vec4(position - eye, 1.0 - exp(-1.1 * share) * (1.0 - cube * cube));
+}
+)";
+
+inline constexpr char kWaterFragmentShader[] = R"(#version 120
+uniform sampler2D noise;
+uniform vec3 haze;
+uniform vec3 sun;
+varying vec2 samples;
+varying vec4 view;
+
+void main() {
+  vec2 ripples = texture2D(noise, samples * (1.0 / 16.0)).rg + texture2D(noise, samples.yx * (1.0 / 128.0)).ba - 1.0;
+  vec3 normal = normalize(vec3(0.16 * ripples, 1.0));
+  vec3 ray = normalize(view.xyz);
+  vec3 mirrored = reflect(ray, normal);
+  float grazing = 1.0 - clamp(abs(dot(ray, normal)), 0.0, 1.0);
+  float squared = grazing * grazing;
+  float fresnel = 0.03 + 0.85 * squared * squared * grazing;
+  vec3 sky = mix(haze, vec3(0.26, 0.45, 0.72), sqrt(clamp(mirrored.z, 0.0, 1.0)));
+  float glint = pow(max(dot(mirrored, sun), 0.0), 160.0);
+  vec3 colour = mix(vec3(0.06, 0.19, 0.26), sky, fresnel) + vec3(0.9, 0.8, 0.6) * glint;
+  float cover = max(0.62 + 0.38 * fresnel, glint);
+  gl_FragColor = vec4(mix(colour, haze, view.w), mix(cover, 1.0, view.w));
+}
+)";
+
+}  // namespace teren
