@@ -1,4 +1,4 @@
-#include "GroundTexture.h"
+#include "coin/GroundTexture.h"
 
 #include <algorithm>
 #include <cstddef>

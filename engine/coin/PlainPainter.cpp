@@ -1,9 +1,9 @@
-#include "PlainPainter.h"
+#include "coin/PlainPainter.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "OpenGL.h"
+#include "coin/OpenGL.h"
 
 namespace teren {
 namespace {
@@ -27,7 +27,7 @@ SbVec3f groundColour(float height, float steep, float depth) {
              smoothStep(-7.0F, -2.5F, depth) * (1.0F - smoothStep(0.45F, 0.75F, steep)));
 }
 
-std::array<std::uint8_t, 4> bytes(const SbVec3f& colour) {
+std::array<std::uint8_t, 4> asBytes(const SbVec3f& colour) {
   const auto byte = [](float value) {
     return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
   };
@@ -95,7 +95,7 @@ std::vector<PlainPainter::Vertex> PlainPainter::build(const Mesh& mesh, const Sa
         groundColour(vertex.height, std::sqrt(x * x + y * y) / up, picture.waterLevel - vertex.height);
     vertices.push_back({(static_cast<float>(vertex.column) * step + column) * spacing,
                         (static_cast<float>(vertex.row) * step + row) * spacing, vertex.height,
-                        bytes({colour[0] * light[0], colour[1] * light[1], colour[2] * light[2]})});
+                        asBytes({colour[0] * light[0], colour[1] * light[1], colour[2] * light[2]})});
   }
   return vertices;
 }

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "TerrainPainter.h"
+#include "coin/TerrainPainter.h"
 
 namespace teren {
 

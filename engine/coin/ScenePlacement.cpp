@@ -1,4 +1,4 @@
-#include "ScenePlacement.h"
+#include "coin/ScenePlacement.h"
 
 #include <cassert>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ShaderPainter.h"
+#include "coin/ShaderPainter.h"
 
 #include <array>
 #include <cassert>
@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "GroundTexture.h"
-#include "OpenGL.h"
-#include "TerrainShaders.h"
+#include "coin/GroundTexture.h"
+#include "coin/OpenGL.h"
+#include "coin/TerrainShaders.h"
 
 namespace teren {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "teren/Result.h"
 
-#include "TerrainBuffers.h"
-#include "TerrainPainter.h"
+#include "coin/TerrainBuffers.h"
+#include "coin/TerrainPainter.h"
 
 namespace teren {
 

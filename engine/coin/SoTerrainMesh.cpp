@@ -1,4 +1,4 @@
-#include "SoTerrainMesh.h"
+#include "coin/SoTerrainMesh.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,8 +1,8 @@
-#include "TerrainBuffers.h"
+#include "coin/TerrainBuffers.h"
 
 #include <cassert>
 
-#include "OpenGL.h"
+#include "coin/OpenGL.h"
 
 namespace teren {
 

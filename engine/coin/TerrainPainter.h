@@ -11,7 +11,7 @@
 
 #include "teren/Scene.h"
 
-#include "ScenePlacement.h"
+#include "coin/ScenePlacement.h"
 
 namespace teren {
 

@@ -1,4 +1,4 @@
-#include "TerrainRenderer.h"
+#include "coin/TerrainRenderer.h"
 
 #include <cstdlib>
 #include <string_view>
@@ -7,8 +7,8 @@
 #include <Inventor/errors/SoDebugError.h>
 #include <Inventor/misc/SoContextHandler.h>
 
-#include "PlainPainter.h"
-#include "ShaderPainter.h"
+#include "coin/PlainPainter.h"
+#include "coin/ShaderPainter.h"
 
 namespace teren {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "TerrainPainter.h"
+#include "coin/TerrainPainter.h"
 
 namespace teren {
 

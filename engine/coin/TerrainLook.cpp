@@ -1,0 +1,54 @@
+#include "coin/TerrainLook.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <Inventor/SbMatrix.h>
+#include <Inventor/SbViewVolume.h>
+#include <Inventor/elements/SoCullElement.h>
+#include <Inventor/elements/SoLightElement.h>
+#include <Inventor/elements/SoModelMatrixElement.h>
+#include <Inventor/elements/SoViewVolumeElement.h>
+#include <Inventor/elements/SoViewingMatrixElement.h>
+#include <Inventor/nodes/SoDirectionalLight.h>
+
+namespace teren {
+
+SbVec3f eyePosition(SoState* state) {
+  SbVec3f eye;
+  const SbMatrix fromWorld = SoModelMatrixElement::get(state).inverse();
+  fromWorld.multVecMatrix(SoViewVolumeElement::get(state).getProjectionPoint(), eye);
+  return eye;
+}
+
+SbVec3f sunDirection(SoState* state) {
+  const SoNodeList& lights = SoLightElement::getLights(state);
+  for (int index = 0; index < lights.getLength(); ++index) {
+    if (!lights[index]->isOfType(SoDirectionalLight::getClassTypeId())) continue;
+    const auto* light = static_cast<const SoDirectionalLight*>(lights[index]);
+    const SbMatrix toEye = SoModelMatrixElement::get(state) * SoViewingMatrixElement::get(state);
+    SbVec3f direction;
+    SoLightElement::getMatrix(state, index).multDirMatrix(-light->direction.getValue(), direction);
+    toEye.inverse().multDirMatrix(direction, direction);
+    if (direction.normalize() > 0.0F) return direction;
+  }
+  return SbVec3f(-0.579F, -0.579F, 0.574F);
+}
+
+std::vector<const Mesh*> visibleMeshes(SoState* state, const Scene& scene, const ScenePlacement& placement) {
+  const SbVec3f eye = eyePosition(state);
+  std::vector<std::pair<float, const Mesh*>> ranked;
+  ranked.reserve(scene.meshes().size());
+  for (const std::shared_ptr<const Mesh>& mesh : scene.meshes()) {
+    const SbBox3f box = placement.box(*mesh);
+    if (SoCullElement::cullTest(state, box)) continue;
+    ranked.emplace_back((box.getClosestPoint(eye) - eye).sqrLength(), mesh.get());
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<const Mesh*> meshes;
+  meshes.reserve(ranked.size());
+  for (const auto& [distance, mesh] : ranked) meshes.push_back(mesh);
+  return meshes;
+}
+
+}  // namespace teren
