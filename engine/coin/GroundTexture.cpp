@@ -10,51 +10,63 @@ namespace {
 
 constexpr int kChannels = 4;
 constexpr int kFirstCells = 4;  // cells along a side in the first octave
-constexpr int kOctaves = 5;
+constexpr int kOctaves = 6;
+constexpr float kFirstAmplitude = 0.55F;
+constexpr float kNextAmplitude = 0.7F;  // times the one before
 
-/// In [-1, 1], at a node of the lattice of an octave; wraps around.
-double lattice(int channel, int cells, int x, int y) {
-  std::uint64_t hash = hashWith(static_cast<std::uint64_t>(channel), static_cast<std::uint64_t>(cells));
-  hash = hashWith(hash, static_cast<std::uint64_t>(x % cells));
-  hash = hashWith(hash, static_cast<std::uint64_t>(y % cells));
-  return static_cast<double>(hash >> 11U) * 0x1p-52 - 1.0;
-}
-
-double smoothStep(double t) {
-  return t * t * (3.0 - 2.0 * t);
-}
-
-double valueNoise(int channel, int cells, int column, int row) {
-  const int texels = kGroundTextureSide / cells;
-  const int x = column / texels;
-  const int y = row / texels;
-  const double u = smoothStep(static_cast<double>(column % texels) / texels);
-  const double v = smoothStep(static_cast<double>(row % texels) / texels);
-  const double south = lattice(channel, cells, x, y) * (1.0 - u) + lattice(channel, cells, x + 1, y) * u;
-  const double north =
-      lattice(channel, cells, x, y + 1) * (1.0 - u) + lattice(channel, cells, x + 1, y + 1) * u;
-  return south * (1.0 - v) + north * v;
-}
-
-std::uint8_t texel(int channel, int column, int row) {
-  double sum = 0.0;
-  double amplitude = 0.55;
-  for (int octave = 0; octave < kOctaves; ++octave) {
-    sum += amplitude * valueNoise(channel, kFirstCells << octave, column, row);
-    amplitude *= 0.7;
+/// One octave of one channel: random values in [-1, 1] at the corners of cells, smooth between them.
+class ValueNoise {
+ public:
+  ValueNoise(int channel, int cells) : cells_(cells), texels_(kGroundTextureSide / cells) {
+    RandomSequence random(hashWith(static_cast<std::uint64_t>(channel), static_cast<std::uint64_t>(cells)));
+    values_.resize(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
+    for (float& value : values_) value = static_cast<float>(random.nextBits(24)) * 0x1p-23F - 1.0F;
   }
-  return static_cast<std::uint8_t>(127.5 + 127.5 * std::clamp(sum, -1.0, 1.0));
-}
+
+  float at(int column, int row) const {
+    const int x = column / texels_;
+    const int y = row / texels_;
+    const float u = smoothStep(column % texels_);
+    const float v = smoothStep(row % texels_);
+    const float south = corner(x, y) * (1.0F - u) + corner(x + 1, y) * u;
+    const float north = corner(x, y + 1) * (1.0F - u) + corner(x + 1, y + 1) * u;
+    return south * (1.0F - v) + north * v;
+  }
+
+ private:
+  float corner(int x, int y) const {
+    return values_[static_cast<std::size_t>((y % cells_) * cells_ + x % cells_)];
+  }
+  float smoothStep(int texel) const {
+    const float t = static_cast<float>(texel) / static_cast<float>(texels_);
+    return t * t * (3.0F - 2.0F * t);
+  }
+
+  int cells_;
+  int texels_;  // along a cell's side
+  std::vector<float> values_;
+};
 
 }  // namespace
 
 std::vector<std::uint8_t> groundTexture() {
-  std::vector<std::uint8_t> texels;
-  texels.reserve(std::size_t{kGroundTextureSide} * kGroundTextureSide * kChannels);
-  for (int row = 0; row < kGroundTextureSide; ++row) {
-    for (int column = 0; column < kGroundTextureSide; ++column) {
-      for (int channel = 0; channel < kChannels; ++channel) texels.push_back(texel(channel, column, row));
+  constexpr std::size_t kTexels = std::size_t{kGroundTextureSide} * kGroundTextureSide;
+  std::vector<float> sums(kTexels * kChannels, 0.0F);
+  float amplitude = kFirstAmplitude;
+  for (int octave = 0; octave < kOctaves; ++octave, amplitude *= kNextAmplitude) {
+    for (int channel = 0; channel < kChannels; ++channel) {
+      const ValueNoise noise(channel, kFirstCells << octave);
+      for (std::size_t texel = 0; texel < kTexels; ++texel) {
+        const auto column = static_cast<int>(texel % kGroundTextureSide);
+        const auto row = static_cast<int>(texel / kGroundTextureSide);
+        sums[texel * kChannels + static_cast<std::size_t>(channel)] += amplitude * noise.at(column, row);
+      }
     }
+  }
+  std::vector<std::uint8_t> texels;
+  texels.reserve(sums.size());
+  for (const float sum : sums) {
+    texels.push_back(static_cast<std::uint8_t>(127.5F + 127.5F * std::clamp(sum, -1.0F, 1.0F)));
   }
   return texels;
 }

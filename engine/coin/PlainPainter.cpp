@@ -55,15 +55,13 @@ void setUpFog(const Picture& picture) {
   glFogfv(GL_FOG_COLOR, haze.data());
 }
 
-/// A square of water, hazed by the same fog at its corners: cut into rows, so that the fog is right inside
-/// too.
+/// A square of opaque water, hazed by the same fog at its corners: cut into rows, so that the fog is right
+/// inside too.
 void drawWater(const Picture& picture, const SbVec3f& eye) {
   constexpr int kCuts = 32;
   const float step = 2.0F * picture.viewDistance / kCuts;
   const SbVec3f corner(eye[0] - picture.viewDistance, eye[1] - picture.viewDistance, picture.waterLevel);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glColor4f(0.16F, 0.32F, 0.44F, 0.75F);
+  glColor3f(0.16F, 0.32F, 0.44F);
   for (int row = 0; row < kCuts; ++row) {
     glBegin(GL_TRIANGLE_STRIP);
     for (int column = 0; column <= kCuts; ++column) {
@@ -90,7 +88,7 @@ std::vector<PlainPainter::Vertex> PlainPainter::build(const Mesh& mesh, const Sa
     const float y = static_cast<float>(vertex.normalY) / 32767.0F;
     const float up = std::sqrt(std::max(1.0F - x * x - y * y, 1e-4F));
     const float direct = std::max(SbVec3f(x, y, up).dot(picture.sun), 0.0F);
-    const SbVec3f light = SbVec3f(0.40F, 0.46F, 0.56F) + SbVec3f(0.98F, 0.90F, 0.76F) * direct;
+    const SbVec3f light = SbVec3f(0.40F, 0.46F, 0.56F) + picture.sunlight * direct;
     const SbVec3f colour =
         groundColour(vertex.height, std::sqrt(x * x + y * y) / up, picture.waterLevel - vertex.height);
     vertices.push_back({(static_cast<float>(vertex.column) * step + column) * spacing,
@@ -103,11 +101,12 @@ std::vector<PlainPainter::Vertex> PlainPainter::build(const Mesh& mesh, const Sa
 void PlainPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
   const Sample reference = picture.placement.referenceNear(picture.eye);
   const double spacing = picture.placement.spacing();
-  if (!(reference == reference_) || sun_ != picture.sun || waterLevel_ != picture.waterLevel ||
-      spacing_ != spacing) {
+  if (!(reference == reference_) || sun_ != picture.sun || sunlight_ != picture.sunlight ||
+      waterLevel_ != picture.waterLevel || spacing_ != spacing) {
     vertices_.clear();
     reference_ = reference;
     sun_ = picture.sun;
+    sunlight_ = picture.sunlight;
     waterLevel_ = picture.waterLevel;
     spacing_ = spacing;
   }

@@ -33,6 +33,7 @@ class PlainPainter final : public TerrainPainter {
 
   Sample reference_;
   SbVec3f sun_{0.0F, 0.0F, 0.0F};
+  SbVec3f sunlight_{0.0F, 0.0F, 0.0F};
   float waterLevel_ = 0.0F;
   double spacing_ = 0.0;
   std::unordered_map<const Mesh*, std::vector<Vertex>> vertices_;

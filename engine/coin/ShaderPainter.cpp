@@ -72,6 +72,7 @@ void pointAttributes(const std::byte* vertices) {
                         at(vertices, offsetof(SurfaceVertex, normalX)));
 }
 
+const SbVec3f kDeepWater(0.05F, 0.16F, 0.22F);
 constexpr int kWaterRings = 32;
 constexpr int kWaterSectors = 64;
 
@@ -233,6 +234,8 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
     program->set("viewDistance", picture.viewDistance);
     program->set("waterLevel", picture.waterLevel);
     program->set("haze", picture.haze);
+    program->set("sunlight", picture.sunlight);
+    program->set("deep", kDeepWater);
   }
   water_.set("eye", eye);
   ground_.use();
@@ -240,13 +243,20 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
 
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, noise_);
+  if (picture.water) drawDeep();
+  // Backs of the ground are seen only from below; a mirroring model matrix turns fronts into backs.
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  glFrontFace(picture.toEye.det3() < 0.0 ? GL_CW : GL_CCW);
   drawGround(reference, meshes);
-  if (picture.water) drawWater();
+  glDisable(GL_CULL_FACE);
+  if (picture.water) drawSurface();
 }
 
 void ShaderPainter::drawGround(const Sample& reference, std::span<const Mesh* const> meshes) {
   constexpr std::int64_t kExact = std::int64_t{1} << 23;  // leaves room for the mesh itself below 2^24
   glDisable(GL_BLEND);
+  ground_.use();
   for (const GLuint attribute : {kCell, kHeight, kSlope}) glEnableVertexAttribArray(attribute);
   for (const Mesh* mesh : meshes) {
     const std::int64_t column = mesh->originColumn - reference.column;
@@ -258,18 +268,34 @@ void ShaderPainter::drawGround(const Sample& reference, std::span<const Mesh* co
                      static_cast<float>(std::int64_t{1} << mesh->level));
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh->indices->size()), GL_UNSIGNED_INT, start.indices);
   }
-  for (const GLuint attribute : {kHeight, kSlope}) glDisableVertexAttribArray(attribute);
+  for (const GLuint attribute : {kCell, kHeight, kSlope}) glDisableVertexAttribArray(attribute);
 }
 
-void ShaderPainter::drawWater() const {
+void ShaderPainter::drawDeep() const {
+  glPushAttrib(GL_DEPTH_BUFFER_BIT);
+  glDepthMask(GL_FALSE);
+  glDisable(GL_BLEND);
   water_.use();
+  water_.set("surface", 0.0F);
+  drawDisc();
+  glPopAttrib();
+}
+
+void ShaderPainter::drawSurface() const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  water_.use();
+  water_.set("surface", 1.0F);
+  drawDisc();
+}
+
+void ShaderPainter::drawDisc() const {
   glBindBuffer(GL_ARRAY_BUFFER, waterVertices_);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, waterIndices_);
   glEnableVertexAttribArray(kCell);
   glVertexAttribPointer(kCell, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
   glDrawElements(GL_TRIANGLES, waterCount_, GL_UNSIGNED_SHORT, nullptr);
+  glDisableVertexAttribArray(kCell);
 }
 
 }  // namespace teren

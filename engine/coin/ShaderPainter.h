@@ -44,7 +44,10 @@ class ShaderPainter final : public TerrainPainter {
   void makeNoise();
   void makeWater();
   void drawGround(const Sample& reference, std::span<const Mesh* const> meshes);
-  void drawWater() const;
+  /// Behind everything: so that through the water one never sees past the end of the ground.
+  void drawDeep() const;
+  void drawSurface() const;
+  void drawDisc() const;
 
   ShaderProgram ground_, water_;
   TerrainBuffers buffers_;

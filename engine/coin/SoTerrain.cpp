@@ -86,13 +86,14 @@ class SoTerrain::Private {
   teren::FieldEngine source;
   SoTimerSensor timer;
   SbTime lastTick = SbTime::zero();
-  bool fed = false;              // by setScene()
-  bool fieldsChanged = true;     // since the last attempt to make an engine
-  bool showsThisEngine = false;  // whether the scene is one of source.engine()
-  bool eyeMoved = true;          // since the last update
-  SbVec3f lastEye{0.0F, 0.0F, 0.0F};
-  SbVec3d origin{0.0, 0.0, 0.0};  // the last good one
-  std::string worldFile;          // where the file named by `world` is
+  bool fed = false;                 // by setScene()
+  bool fieldsChanged = true;        // since the last attempt to make an engine
+  bool showsThisEngine = false;     // whether the scene is one of source.engine()
+  bool eyeMoved = true;             // since the last update
+  SbVec3f eye{0.0F, 0.0F, 0.0F};    // of the last traversal, in scene coordinates
+  SbVec3d eyePlace{0.0, 0.0, 0.0};  // the same in the world
+  SbVec3d origin{0.0, 0.0, 0.0};    // the last good one
+  std::string worldFile;            // where the file named by `world` is
   SbString fieldError, originError;
   std::size_t drawnTriangles = 0;
 };
@@ -129,14 +130,13 @@ void SoTerrain::Private::armTimer() {
 }
 
 void SoTerrain::Private::followEye(const SbVec3f& point) {
-  const SbVec3d eye = origin + SbVec3d(point);
-  if (!isFinite(eye)) return;
-  if (point != lastEye) {
-    lastEye = point;
-    eyeMoved = true;
-  }
-  source.putEye(eye);
-  if (eyeMoved) armTimer();
+  const SbVec3d place = origin + SbVec3d(point);
+  eye = point;
+  if (!isFinite(place) || place == eyePlace) return;
+  eyePlace = place;
+  eyeMoved = true;
+  source.putEye(place);
+  armTimer();
 }
 
 void SoTerrain::Private::tick(void* self, SoSensor* /*sensor*/) {
@@ -196,9 +196,13 @@ bool SoTerrain::Private::isWet() const {
 }
 
 teren::Picture SoTerrain::Private::look(SoState* state) const {
-  teren::Picture picture{placement(), precise(SoModelMatrixElement::get(state)),
-                         precise(SoProjectionMatrixElement::get(state)), teren::eyePosition(state),
-                         teren::sunDirection(state)};
+  teren::Picture picture{placement()};
+  picture.eye = teren::eyePosition(state);
+  const teren::Sun sun = teren::sunOf(state);
+  picture.sun = sun.direction;
+  picture.sunlight = sun.light;
+  picture.toClip = precise(SoProjectionMatrixElement::get(state));
+  picture.toEye = precise(SoModelMatrixElement::get(state));
   picture.toEye.multRight(precise(SoViewingMatrixElement::get(state)));
   const float distance = node.viewDistance.getValue();
   picture.viewDistance = std::isfinite(distance) && distance > 1.0F ? distance : 1.0F;
@@ -212,6 +216,7 @@ void SoTerrain::Private::takeOrigin() {
   if (isFinite(wanted)) {
     report(originError, "");
     origin = wanted;
+    if (!fed) followEye(eye);
   } else {
     report(originError, "origin is not finite, expected three finite numbers");
   }

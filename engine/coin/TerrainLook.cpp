@@ -21,18 +21,20 @@ SbVec3f eyePosition(SoState* state) {
   return eye;
 }
 
-SbVec3f sunDirection(SoState* state) {
+Sun sunOf(SoState* state) {
   const SoNodeList& lights = SoLightElement::getLights(state);
   for (int index = 0; index < lights.getLength(); ++index) {
     if (!lights[index]->isOfType(SoDirectionalLight::getClassTypeId())) continue;
     const auto* light = static_cast<const SoDirectionalLight*>(lights[index]);
     const SbMatrix toEye = SoModelMatrixElement::get(state) * SoViewingMatrixElement::get(state);
-    SbVec3f direction;
-    SoLightElement::getMatrix(state, index).multDirMatrix(-light->direction.getValue(), direction);
-    toEye.inverse().multDirMatrix(direction, direction);
-    if (direction.normalize() > 0.0F) return direction;
+    Sun sun;
+    SoLightElement::getMatrix(state, index).multDirMatrix(-light->direction.getValue(), sun.direction);
+    toEye.inverse().multDirMatrix(sun.direction, sun.direction);
+    if (!(sun.direction.normalize() > 0.0F)) break;
+    sun.light = light->color.getValue() * light->intensity.getValue();
+    return sun;
   }
-  return SbVec3f(-0.579F, -0.579F, 0.574F);
+  return {};
 }
 
 std::vector<const Mesh*> visibleMeshes(SoState* state, const Scene& scene, const ScenePlacement& placement) {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include <Inventor/SbColor.h>
 #include <Inventor/SbVec3f.h>
 
 #include "teren/Scene.h"
@@ -17,9 +18,12 @@ namespace teren {
 /// The eye, in the coordinates the model matrix leads from.
 SbVec3f eyePosition(SoState* state);
 
-/// Unit vector towards the first directional light, in the same coordinates; without one, towards a sun in
-/// the south-west, 35 degrees high.
-SbVec3f sunDirection(SoState* state);
+/// The first directional light of the state; without one, a warm sun in the south-west, 35 degrees high.
+struct Sun {
+  SbVec3f direction{-0.579F, -0.579F, 0.574F};  ///< unit vector towards it, in the same coordinates
+  SbColor light{0.98F, 0.90F, 0.76F};           ///< its colour times its intensity
+};
+Sun sunOf(SoState* state);
 
 /// The meshes that are not outside the view volume or a clipping plane, nearest to the eye first.
 std::vector<const Mesh*> visibleMeshes(SoState* state, const Scene& scene, const ScenePlacement& placement);

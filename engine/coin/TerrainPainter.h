@@ -1,7 +1,6 @@
 // What the two ways of drawing a landscape, with shaders and without, have in common.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -17,24 +16,19 @@ namespace teren {
 
 /// One look at a landscape, in scene coordinates.
 struct Picture {
-  ScenePlacement placement;
-  SbDPMatrix toEye;   ///< scene to eye coordinates (row vectors, as Inventor's matrices)
-  SbDPMatrix toClip;  ///< eye to clip coordinates
-  SbVec3f eye;        ///< where it is looked from
-  SbVec3f sun;        ///< unit vector towards the sun
-  float viewDistance = 0.0F;
-  bool water = false;       ///< whether there is any to draw
-  float waterLevel = 0.0F;  ///< [m] absolute, finite also where there is no water
-  SbColor haze;
-};
+  explicit Picture(const ScenePlacement& where) : placement(where) {}
 
-/// How much of the ground the haze hides at `share` of the view distance, 0 ... 1, reaching 1 at share 1. An
-/// exponential law that a steep end pulls to 1; the shaders have the same formula.
-inline float hazeAt(float share) {
-  const float s = share < 1.0F ? share : 1.0F;
-  const float cube = s * s * s;
-  return 1.0F - std::exp(-1.1F * s) * (1.0F - cube * cube);
-}
+  ScenePlacement placement;
+  SbDPMatrix toEye;                    ///< scene to eye coordinates (row vectors, as Inventor's matrices)
+  SbDPMatrix toClip;                   ///< eye to clip coordinates
+  SbVec3f eye{0.0F, 0.0F, 0.0F};       ///< where it is looked from
+  SbVec3f sun{0.0F, 0.0F, 1.0F};       ///< unit vector towards the sun
+  SbColor sunlight{1.0F, 1.0F, 1.0F};  ///< its colour times its intensity
+  float viewDistance = 1.0F;           ///< [m] > 0
+  bool water = false;                  ///< whether there is any to draw
+  float waterLevel = 0.0F;             ///< [m] absolute, finite also where there is no water
+  SbColor haze{1.0F, 1.0F, 1.0F};
+};
 
 /// Draws meshes in one GL context and keeps what that takes. All members but forget() and bytes() need the
 /// context to be current. GL state is left as it was found.

@@ -20,13 +20,16 @@ uniform float spacing;       // [m]
 uniform vec2 eye;            // [m] from the reference sample
 uniform vec3 sun;            // towards it
 uniform float viewDistance;  // [m]
+uniform sampler2D noise;
 varying vec2 samples;
 varying vec4 ground;  // height, gradient, sunlight, haze
+varying vec4 broad;   // noise over hundreds of metres: once a vertex is enough
 
 void main() {
   samples = cell * place.z + place.xy;
   vec3 position = vec3(samples * spacing, height);
   gl_Position = toClip * vec4(position, 1.0);
+  broad = texture2DLod(noise, samples * (1.0 / 1024.0), 0.0) - 0.5;
 
   vec2 flat_ = slope * (1.0 / 32767.0);
   float squared = dot(flat_, flat_);
@@ -41,12 +44,14 @@ void main() {
 inline constexpr char kGroundFragmentShader[] = R"(#version 120
 uniform sampler2D noise;
 uniform vec3 haze;
+uniform vec3 deep;  // what the water swallows
+uniform vec3 sunlight;
 uniform float waterLevel;  // [m]
 varying vec2 samples;
 varying vec4 ground;
+varying vec4 broad;
 
 void main() {
-  vec4 broad = texture2D(noise, samples * (1.0 / 1024.0)) - 0.5;
   vec4 fine = texture2D(noise, samples * (1.0 / 64.0)) - 0.5;
   float height = ground.x + 150.0 * broad.r + 25.0 * fine.r;
   float steep = ground.y + 0.3 * broad.g + 0.35 * fine.g;
@@ -57,7 +62,8 @@ void main() {
   vec3 alpine = vec3(0.43, 0.41, 0.27);
   vec3 colour = mix(mix(grass, alpine, smoothstep(120.0, 380.0, height)), forest, trees);
 
-  vec3 rock = vec3(0.43, 0.40, 0.37) * (1.0 + 0.7 * fine.b + 0.6 * broad.b);
+  float strata = abs(fract(0.045 * ground.x + 1.2 * broad.r + 0.5 * fine.g) - 0.5);
+  vec3 rock = vec3(0.47, 0.43, 0.39) * (0.80 + 0.7 * strata + 0.7 * fine.b + 0.5 * broad.b);
   colour = mix(colour, rock, smoothstep(0.50, 0.72, steep));
   float snow = smoothstep(420.0, 480.0, height) * smoothstep(1.05, 0.70, steep);
   colour = mix(colour, vec3(0.93, 0.95, 0.99), snow);
@@ -66,9 +72,9 @@ void main() {
   float shore = smoothstep(-7.0, -2.5, depth + 8.0 * fine.r) * smoothstep(0.75, 0.45, steep);
   colour = mix(colour, vec3(0.74, 0.67, 0.50) * (1.0 + 0.3 * fine.a), shore);
 
-  colour *= (1.0 + 0.35 * fine.g + 0.3 * broad.g) * (vec3(0.40, 0.46, 0.56) + vec3(0.98, 0.90, 0.76) * ground.z);
-  colour = mix(vec3(0.05, 0.16, 0.22), colour, exp(-0.09 * max(depth, 0.0)));
-  gl_FragColor = vec4(mix(colour, haze, ground.w), 1.0);
+  colour *= (1.0 + 0.35 * fine.g + 0.3 * broad.g) * (vec3(0.40, 0.46, 0.56) + sunlight * ground.z);
+  // Below the water nothing is lost in haze but everything in the deep: the water above has the haze.
+  gl_FragColor = vec4(mix(deep, mix(colour, haze, ground.w), exp(-0.09 * max(depth, 0.0))), 1.0);
 }
 )";
 
@@ -96,11 +102,18 @@ void main() {
 inline constexpr char kWaterFragmentShader[] = R"(#version 120
 uniform sampler2D noise;
 uniform vec3 haze;
+uniform vec3 deep;
 uniform vec3 sun;
+uniform vec3 sunlight;
+uniform float surface;  // 0: only the deep, which lies behind everything; 1: the water's surface
 varying vec2 samples;
 varying vec4 view;
 
 void main() {
+  if (surface < 0.5) {
+    gl_FragColor = vec4(deep, 1.0);
+    return;
+  }
   vec2 ripples = texture2D(noise, samples * (1.0 / 16.0)).rg + texture2D(noise, samples.yx * (1.0 / 128.0)).ba - 1.0;
   vec3 normal = normalize(vec3(0.16 * ripples, 1.0));
   vec3 ray = normalize(view.xyz);
@@ -110,7 +123,7 @@ void main() {
   float fresnel = 0.03 + 0.85 * squared * squared * grazing;
   vec3 sky = mix(haze, vec3(0.26, 0.45, 0.72), sqrt(clamp(mirrored.z, 0.0, 1.0)));
   float glint = pow(max(dot(mirrored, sun), 0.0), 160.0);
-  vec3 colour = mix(vec3(0.06, 0.19, 0.26), sky, fresnel) + vec3(0.9, 0.8, 0.6) * glint;
+  vec3 colour = mix(deep * 1.15, sky, fresnel) + sunlight * glint;
   float cover = max(0.62 + 0.38 * fresnel, glint);
   gl_FragColor = vec4(mix(colour, haze, view.w), mix(cover, 1.0, view.w));
 }
