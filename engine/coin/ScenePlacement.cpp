@@ -1,5 +1,6 @@
 #include "coin/ScenePlacement.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -7,10 +8,15 @@ namespace teren {
 
 ScenePlacement::ScenePlacement(const SbVec3d& origin, double spacing) noexcept : spacing_(spacing) {
   assert(spacing > 0.0);
-  const double column = std::floor(origin[0] / spacing);
-  const double row = std::floor(origin[1] / spacing);
-  origin_ = {static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)};
-  remainder_.setValue(std::fma(-column, spacing, origin[0]), std::fma(-row, spacing, origin[1]), origin[2]);
+  const auto place = [spacing](double metres, std::int64_t& sample) {
+    constexpr auto kLimit = static_cast<double>(kFarthest);
+    const double whole = std::floor(metres / spacing);
+    sample = static_cast<std::int64_t>(std::clamp(whole, -kLimit, kLimit));
+    return std::fabs(whole) > kLimit ? 0.0 : std::fma(-whole, spacing, metres);
+  };
+  const double east = place(origin[0], origin_.column);
+  const double north = place(origin[1], origin_.row);
+  remainder_.setValue(east, north, origin[2]);
 }
 
 SbVec3d ScenePlacement::position(const Sample& sample) const noexcept {

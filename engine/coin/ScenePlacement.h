@@ -23,8 +23,11 @@ struct Sample {
 /// is.
 class ScenePlacement {
  public:
-  /// `origin` is finite and within kMaxPatch patches; `spacing` [m] between level-0 samples, > 0.
+  /// `origin` is finite; what lies beyond kFarthest samples is taken for that. `spacing` [m] between level-0
+  /// samples, > 0.
   ScenePlacement(const SbVec3d& origin, double spacing) noexcept;
+
+  static constexpr std::int64_t kFarthest = std::int64_t{1} << 61;
 
   double spacing() const noexcept { return spacing_; }
 

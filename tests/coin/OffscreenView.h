@@ -3,16 +3,15 @@
 
 #include <memory>
 
-#include <QImage>
-
 #include <Inventor/SbColor.h>
+#include <QImage>
 
 class SoNode;
 
 namespace teren {
 
-/// A GL context of its own with a framebuffer of a fixed size. Needs a QGuiApplication on an X display (xvfb-run is
-/// enough) and SoDB::init(). One thread.
+/// A GL context of its own with a framebuffer of a fixed size. Needs a QGuiApplication on an X display
+/// (xvfb-run is enough) and SoDB::init(). One thread.
 class OffscreenView {
  public:
   OffscreenView(int width, int height);

@@ -1,0 +1,244 @@
+// What must be true of the pixels.
+#include <cmath>
+#include <cstdlib>
+
+#include <Inventor/nodes/SoDirectionalLight.h>
+#include <Inventor/nodes/SoDrawStyle.h>
+#include <Inventor/nodes/SoPerspectiveCamera.h>
+#include <Inventor/nodes/SoSeparator.h>
+#include <QColor>
+#include <QImage>
+#include <gtest/gtest.h>
+
+#include "teren/Engine.h"
+#include "teren/Hash.h"
+
+#include "coin/SoTerrain.h"
+#include "tests/coin/OffscreenView.h"
+#include "tests/coin/Stage.h"
+
+namespace teren {
+namespace {
+
+const QRgb kBackground = qRgb(255, 0, 255);
+
+/// [0, 1)
+double unit(RandomSequence& random) {
+  return static_cast<double>(random.nextBits(53)) * 0x1p-53;
+}
+
+bool near(QRgb pixel, const SbColor& colour, int tolerance) {
+  return std::abs(qRed(pixel) - static_cast<int>(255.0F * colour[0])) <= tolerance &&
+         std::abs(qGreen(pixel) - static_cast<int>(255.0F * colour[1])) <= tolerance &&
+         std::abs(qBlue(pixel) - static_cast<int>(255.0F * colour[2])) <= tolerance;
+}
+
+/// A rough hill in the middle of 256 samples.
+double hill(double x, double y) {
+  const double squared = (x - 128.0) * (x - 128.0) + (y - 128.0) * (y - 128.0);
+  const double bump = std::fabs(std::remainder(x * 7.0 + y * 13.0, 5.0));
+  return 30.0 / (1.0 + squared / 500.0) + 0.9 * bump;
+}
+
+/// For the plain way of drawing: the environment of the contexts made while it lives.
+class WithoutShaders {
+ public:
+  WithoutShaders() { setenv("TEREN_NO_SHADERS", "1", 1); }
+  ~WithoutShaders() { unsetenv("TEREN_NO_SHADERS"); }
+  WithoutShaders(const WithoutShaders&) = delete;
+  WithoutShaders& operator=(const WithoutShaders&) = delete;
+};
+
+/// Looks from random places at hand-made ground of many meshes; counts background between them. A spacing
+/// that is no power of two makes every product round.
+int cracksOfHandMadeGround(std::uint64_t seed) {
+  const Stage stage;
+  const std::int64_t far = (std::int64_t{1} << 40) + 12345;
+  const double spacing = 0.7;
+  stage.terrain->waterLevel = -2e6F;
+  stage.terrain->origin =
+      SbVec3d(static_cast<double>(far) * spacing, static_cast<double>(-far) * spacing, 0.0);
+  stage.terrain->setScene(makeScene(
+      {.side = 32, .intervals = 8, .column = far, .row = -far, .spacing = spacing, .height = hill}));
+  OffscreenView view(480, 360);
+  RandomSequence random(seed);
+  int cracks = 0;
+  for (int picture = 0; picture < 40; ++picture) {
+    const auto x = static_cast<float>(80.0 + 20.0 * unit(random));
+    const auto y = static_cast<float>(80.0 + 20.0 * unit(random));
+    stage.look(SbVec3f(x, y, static_cast<float>(36.0 + 20.0 * unit(random))), 360.0 * unit(random),
+               -90.0 + 15.0 * unit(random));
+    cracks += backgroundPixels(view.picture(stage.root, kMagenta));
+  }
+  return cracks;
+}
+
+TEST(Picture, MeshesMeetWithoutCracksFarFromTheWorldsZero) {
+  EXPECT_EQ(cracksOfHandMadeGround(1), 0);
+}
+
+TEST(Picture, MeshesMeetWithoutCracksWithoutShadersToo) {
+  const WithoutShaders plain;
+  EXPECT_EQ(cracksOfHandMadeGround(2), 0);
+}
+
+/// The standard world, settled, somewhere on dry land.
+class Landscape : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = readScene("#Inventor V2.1 ascii\nSoTerrain { seed \"42\" }");
+    auto* read = static_cast<SoSeparator*>(root_);
+    terrain_ = static_cast<SoTerrain*>(read->getChild(0));
+    stage_.root->replaceChild(stage_.terrain, terrain_);
+    stage_.terrain = terrain_;
+    ASSERT_STREQ(terrain_->errorText().getString(), "");
+    terrain_->settle();
+    ground_ = *terrain_->engine()->drawnHeight(Position{});
+  }
+  void TearDown() override { root_->unref(); }
+  QImage picture() { return view_.picture(stage_.root, kMagenta); }
+
+  Stage stage_;
+  SoNode* root_ = nullptr;
+  SoTerrain* terrain_ = nullptr;
+  OffscreenView view_{640, 360};
+  double ground_ = 0.0;
+};
+
+TEST_F(Landscape, HasSkyAboveAndGroundBelowTheHorizonAndNothingBetween) {
+  RandomSequence random(3);
+  stage_.camera->heightAngle = 1.4F;
+  for (int turn = 0; turn < 12; ++turn) {
+    const double heading = 360.0 * unit(random);
+    stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + 200.0 + 150.0 * unit(random))), heading,
+                0.0);
+    const QImage seen = picture();
+    EXPECT_EQ(backgroundBelowTheHorizon(seen), 0) << "heading " << heading;
+    for (int x = 0; x < seen.width(); x += 16) {
+      EXPECT_EQ(seen.pixel(x, 0), kBackground);
+      EXPECT_NE(seen.pixel(x, seen.height() - 1), kBackground);
+    }
+  }
+}
+
+TEST_F(Landscape, HasNoCracksSeenFromAbove) {
+  RandomSequence random(4);
+  for (int turn = 0; turn < 20; ++turn) {
+    const auto x = static_cast<float>(600.0 * unit(random) - 300.0);
+    const auto y = static_cast<float>(600.0 * unit(random) - 300.0);
+    stage_.look(SbVec3f(x, y, static_cast<float>(ground_ + 700.0)), 360.0 * unit(random),
+                -90.0 + 30.0 * unit(random));
+    EXPECT_EQ(backgroundPixels(picture()), 0) << "at " << x << ", " << y;
+  }
+}
+
+TEST_F(Landscape, IsDrawnWithinItsFrustumOnlyAndHoldsCountedBuffers) {
+  stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + 100.0)), 90.0, 0.0);
+  for (int frame = 0; frame < 8; ++frame) picture();
+  const std::size_t all = terrain_->scene()->triangles();
+  EXPECT_GT(terrain_->drawnTriangles(), all / 20);
+  EXPECT_LT(terrain_->drawnTriangles(), all / 2);
+  EXPECT_GT(terrain_->bufferBytes(), std::size_t{100'000});
+  EXPECT_LT(terrain_->bufferBytes(), std::size_t{12'000'000});
+  view_.destroyContext();
+  EXPECT_EQ(terrain_->bufferBytes(), 0U);
+}
+
+TEST_F(Landscape, ShowsWaterWhereTheGroundIsLowerAndNoneInADryWorld) {
+  const double bottom = 60.0;
+  terrain_->waterLevel = static_cast<float>(ground_ + bottom);
+  stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + bottom + 60.0)), 0.0, -89.0);
+  const QColor wet(picture().pixel(320, 180));
+  EXPECT_GT(wet.blue(), wet.red() + 15);
+  EXPECT_GE(wet.blue(), wet.green());
+  terrain_->waterLevel = -1e6F;
+  const QColor dry(picture().pixel(320, 180));
+  EXPECT_GT(dry.green(), dry.blue());
+}
+
+TEST_F(Landscape, HidesBackgroundBehindWaterAlsoWhereTheSeaIsDeep) {
+  terrain_->waterLevel = static_cast<float>(ground_ + 900.0);
+  for (const double pitch : {-60.0, -30.0, -15.0}) {
+    stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + 1000.0)), 30.0, pitch);
+    const QImage seen = picture();
+    EXPECT_EQ(backgroundBelowTheHorizon(seen), 0);
+    for (int x = 0; x < seen.width(); x += 8) {
+      const QColor pixel(seen.pixel(x, 359));
+      EXPECT_GE(pixel.green() + 3, pixel.red()) << "magenta shines through at " << x;
+    }
+  }
+}
+
+TEST_F(Landscape, LosesItselfInTheHazeAtTheViewDistance) {
+  terrain_->waterLevel = -1e6F;
+  stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + 1200.0)), 20.0, -20.0);
+  const QImage seen = picture();
+  int first = 0;
+  while (first < seen.height() && seen.pixel(320, first) == kBackground) ++first;
+  ASSERT_LT(first, seen.height() - 1);
+  EXPECT_TRUE(near(seen.pixel(320, first + 1), terrain_->hazeColor.getValue(), 3));
+}
+
+TEST_F(Landscape, LooksMuchTheSameWithoutShaders) {
+  stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + 300.0)), 90.0, -15.0);
+  const QImage with = picture();
+  const WithoutShaders plain;
+  OffscreenView other(640, 360);
+  const QImage without = other.picture(stage_.root, kMagenta);
+  EXPECT_EQ(backgroundBelowTheHorizon(without), 0);
+  int sky = 0;
+  double difference = 0.0;
+  for (int y = 0; y < with.height(); ++y) {
+    for (int x = 0; x < with.width(); ++x) {
+      if ((with.pixel(x, y) == kBackground) != (without.pixel(x, y) == kBackground)) ++sky;
+      difference += std::abs(qGreen(with.pixel(x, y)) - qGreen(without.pixel(x, y)));
+    }
+  }
+  EXPECT_LT(sky, 640) << "pixels that are sky in one picture only";
+  EXPECT_LT(difference / (640.0 * 360.0), 40.0);
+}
+
+TEST_F(Landscape, TakesItsSunFromTheFirstDirectionalLight) {
+  stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + 300.0)), 90.0, -40.0);
+  const auto brightness = [&] {
+    const QImage seen = picture();
+    double sum = 0.0;
+    for (int x = 0; x < seen.width(); ++x) sum += qGreen(seen.pixel(x, 300));
+    return sum / seen.width();
+  };
+  auto* light = new SoDirectionalLight;
+  stage_.root->insertChild(light, 1);
+  light->direction = SbVec3f(0.0F, 0.0F, -1.0F);
+  const double noon = brightness();
+  light->direction = SbVec3f(0.0F, 0.0F, 1.0F);
+  const double night = brightness();
+  EXPECT_GT(noon, 1.4 * night);
+}
+
+TEST_F(Landscape, LeavesOtherShapesAsTheyWere) {
+  auto* after = readScene(
+      "#Inventor V2.1 ascii\nSeparator { DirectionalLight { direction 0 0 -1 } Translation { translation 0 0 "
+      "1800 } "
+      "Material { diffuseColor 1 0 0 } Cone { bottomRadius 40 height 90 } }");
+  stage_.camera->position = SbVec3f(0.0F, 0.0F, 2000.0F);  // looks down
+  stage_.root->addChild(after);
+  after->unref();
+  const QRgb together = picture().pixel(320, 190);
+  stage_.root->removeChild(terrain_);
+  const QRgb alone = picture().pixel(320, 190);
+  EXPECT_GT(qRed(alone), 100);
+  EXPECT_LT(qGreen(alone), 50);
+  EXPECT_EQ(alone, together);
+}
+
+TEST_F(Landscape, IsNotDrawnWhereItIsMadeInvisible) {
+  stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + 300.0)), 90.0, -40.0);
+  auto* style = new SoDrawStyle;
+  style->style = SoDrawStyle::INVISIBLE;
+  stage_.root->insertChild(style, 1);
+  EXPECT_EQ(picture().pixel(320, 300), kBackground);
+  EXPECT_EQ(terrain_->drawnTriangles(), 0U);
+}
+
+}  // namespace
+}  // namespace teren
