@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <ostream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -145,6 +146,9 @@ struct BadField {
   const char* field;  // must be named
   const char* value;  // must be shown
 };
+
+/// The test's name as ctest shows it.
+void PrintTo(const BadField& bad, std::ostream* stream) { *stream << bad.fields; }
 
 class SoTerrainRefuses : public ::testing::TestWithParam<BadField> {};
 

@@ -31,14 +31,12 @@ class InventorAndQt : public ::testing::Environment {
     static int count = 1;
     static char name[] = "coin-tests";
     static char* arguments[] = {name, nullptr};
-    application_ = std::make_unique<QGuiApplication>(count, arguments);
+    // Never deleted: that would unload the GL driver, and the leak sanitizer could not tell whose its leaks are.
+    static auto* const application = new QGuiApplication(count, arguments);
+    static_cast<void>(application);
     SoDB::init();
     SoTerrain::initClass();
   }
-  void TearDown() override { application_.reset(); }
-
- private:
-  std::unique_ptr<QGuiApplication> application_;
 };
 [[maybe_unused]] const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new InventorAndQt);
 
