@@ -148,7 +148,9 @@ struct BadField {
 };
 
 /// The test's name as ctest shows it.
-void PrintTo(const BadField& bad, std::ostream* stream) { *stream << bad.fields; }
+void PrintTo(const BadField& bad, std::ostream* stream) {
+  *stream << bad.fields;
+}
 
 class SoTerrainRefuses : public ::testing::TestWithParam<BadField> {};
 
