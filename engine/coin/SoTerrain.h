@@ -28,11 +28,11 @@ class Scene;
 ///   several viewers the landscape follows whichever drew last.
 /// * by a program that drives an engine of its own and calls setScene() after every Engine::update().
 ///
-/// Meshes are hidden children: they can be picked and searched for, and are not written.
-/// Drawing needs OpenGL 2.1; without shaders, or with TEREN_NO_SHADERS=1 in the environment, a plainer
-/// fixed-function drawing takes their place. The first directional light of the scene is the sun; without one
-/// the sun stands in the south-west, 35 degrees high.
-/// All calls from the thread that owns the scene graph.
+/// Meshes are hidden children: they can be picked and searched for, and are not written. The ground is drawn
+/// from above only. Drawing needs OpenGL 2.1; without shaders, or with TEREN_NO_SHADERS=1 in the environment,
+/// a plainer fixed-function drawing takes their place. The first directional light of the scene is the sun;
+/// without one the sun stands in the south-west, 35 degrees high. All calls from the thread that owns the
+/// scene graph.
 ///
 /// FILE FORMAT/DEFAULTS:
 /// \code

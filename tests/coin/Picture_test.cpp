@@ -85,6 +85,21 @@ TEST(Picture, MeshesMeetWithoutCracksWithoutShadersToo) {
   EXPECT_EQ(cracksOfHandMadeGround(2), 0);
 }
 
+TEST(Picture, ShowsWhatIsNotUploadedYetAllTheSame) {
+  const Stage stage;
+  stage.terrain->waterLevel = -2e6F;
+  stage.terrain->setScene(makeScene({.side = 8, .intervals = 64, .spacing = 0.5, .height = hill}));
+  stage.look(SbVec3f(128.0F, 128.0F, 150.0F), 0.0, -90.0);
+  OffscreenView view(320, 320);
+  const QImage first = view.picture(stage.root, kMagenta);
+  const std::size_t uploadedAtFirst = stage.terrain->bufferBytes();
+  QImage last;
+  for (int frame = 0; frame < 8; ++frame) last = view.picture(stage.root, kMagenta);
+  ASSERT_LT(uploadedAtFirst, stage.terrain->bufferBytes()) << "all was uploaded at once: nothing is tested";
+  EXPECT_EQ(backgroundPixels(first), 0);
+  EXPECT_EQ(first, last);
+}
+
 /// The standard world, settled, somewhere on dry land.
 class Landscape : public ::testing::Test {
  protected:
