@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "coin/GroundTexture.h"
@@ -169,28 +170,39 @@ void ShaderProgram::release() {
 
 Result<std::unique_ptr<TerrainPainter>> ShaderPainter::create() {
   if (!glslThere()) return Error{"OpenGL offers no shading language 1.20 here"};
-  constexpr std::array<const char*, 4> kGround{"cell", "height", "slope", "place"};
-  constexpr std::array<const char*, 1> kWater{"cell"};
-  Result<ShaderProgram> ground = ShaderProgram::link(kGroundVertexShader, kGroundFragmentShader, kGround);
-  if (!ground) return ground.error();
-  Result<ShaderProgram> water = ShaderProgram::link(kWaterVertexShader, kWaterFragmentShader, kWater);
-  if (!water) {
-    ground->release();
-    return water.error();
+  std::unique_ptr<ShaderPainter> painter(new ShaderPainter);
+  const Result<void> linked = painter->link();
+  if (!linked) {
+    painter->release();
+    return linked.error();
   }
-  return std::unique_ptr<TerrainPainter>(new ShaderPainter(*ground, *water));
+  const SavedState saved;
+  painter->makeNoise();
+  painter->makeWater();
+  return std::unique_ptr<TerrainPainter>(std::move(painter));
 }
 
-ShaderPainter::ShaderPainter(ShaderProgram ground, ShaderProgram water) : ground_(ground), water_(water) {
-  const SavedState saved;
-  makeNoise();
-  makeWater();
+Result<void> ShaderPainter::link() {
+  constexpr std::array<const char*, 4> kGround{"cell", "height", "slope", "place"};
+  constexpr std::array<const char*, 1> kWater{"cell"};
+  const auto make = [](ShaderProgram& program, const char* vertex, const char* fragment,
+                       std::span<const char* const> attributes) -> Result<void> {
+    const Result<ShaderProgram> linked = ShaderProgram::link(vertex, fragment, attributes);
+    if (!linked) return linked.error();
+    program = *linked;
+    return {};
+  };
+  if (Result<void> made = make(ground_, kGroundVertexShader, kGroundFragmentShader, kGround); !made)
+    return made;
+  if (Result<void> made = make(water_, kWaterVertexShader, kWaterFragmentShader, kWater); !made) return made;
+  return make(deep_, kWaterVertexShader, kDeepFragmentShader, kWater);
 }
 
 void ShaderPainter::release() {
   buffers_.clear();
   ground_.release();
   water_.release();
+  deep_.release();
   glDeleteTextures(1, &noise_);
   glDeleteBuffers(1, &waterVertices_);
   glDeleteBuffers(1, &waterIndices_);
@@ -226,7 +238,7 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
   toClip.multRight(picture.toEye);
   toClip.multRight(picture.toClip);
   const SbVec3f eye = picture.eye - SbVec3f(corner);
-  for (const ShaderProgram* program : {&ground_, &water_}) {
+  for (const ShaderProgram* program : {&ground_, &water_, &deep_}) {
     program->use();
     program->set("toClip", toClip);
     program->set("spacing", static_cast<float>(picture.placement.spacing()));
@@ -236,10 +248,12 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
     program->set("haze", picture.haze);
     program->set("sunlight", picture.sunlight);
     program->set("deep", kDeepWater);
+    if (program == &ground_) {
+      program->set("eye", eye[0], eye[1]);
+    } else {
+      program->set("eye", eye);
+    }
   }
-  water_.set("eye", eye);
-  ground_.use();
-  ground_.set("eye", eye[0], eye[1]);
 
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, noise_);
@@ -275,8 +289,7 @@ void ShaderPainter::drawDeep() const {
   glPushAttrib(GL_DEPTH_BUFFER_BIT);
   glDepthMask(GL_FALSE);
   glDisable(GL_BLEND);
-  water_.use();
-  water_.set("surface", 0.0F);
+  deep_.use();
   drawDisc();
   glPopAttrib();
 }
@@ -285,7 +298,6 @@ void ShaderPainter::drawSurface() const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   water_.use();
-  water_.set("surface", 1.0F);
   drawDisc();
 }
 

@@ -40,7 +40,8 @@ class ShaderPainter final : public TerrainPainter {
   std::size_t bytes() const noexcept override { return buffers_.bytes() + waterBytes_; }
 
  private:
-  ShaderPainter(ShaderProgram ground, ShaderProgram water);
+  ShaderPainter() = default;
+  Result<void> link();
   void makeNoise();
   void makeWater();
   void drawGround(const Sample& reference, std::span<const Mesh* const> meshes);
@@ -49,7 +50,7 @@ class ShaderPainter final : public TerrainPainter {
   void drawSurface() const;
   void drawDisc() const;
 
-  ShaderProgram ground_, water_;
+  ShaderProgram ground_, water_, deep_;
   TerrainBuffers buffers_;
   unsigned noise_ = 0;
   unsigned waterVertices_ = 0, waterIndices_ = 0;

@@ -408,13 +408,17 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
     private_->followEye(teren::eyePosition(state));
   }
   teren::Picture picture = private_->look(state);
-  const std::vector<const teren::Mesh*> meshes =
+  std::vector<const teren::Mesh*> meshes =
       teren::visibleMeshes(state, *private_->children.scene(), picture.placement);
   if (meshes.empty()) return;
-  for (const teren::Mesh* mesh : meshes) {
-    private_->drawnTriangles += mesh->indices->size() / 3;
-    if (mesh->minHeight < picture.waterLevel) picture.water = true;
+  picture.water = std::any_of(meshes.begin(), meshes.end(),
+                              [&](const teren::Mesh* mesh) { return mesh->minHeight < picture.waterLevel; });
+  if (static_cast<double>(picture.eye[2]) + private_->origin[2] > static_cast<double>(picture.waterLevel)) {
+    std::erase_if(meshes, [&](const teren::Mesh* mesh) {
+      return mesh->maxHeight < picture.waterLevel - teren::kOpaqueDepth;
+    });
   }
+  for (const teren::Mesh* mesh : meshes) private_->drawnTriangles += mesh->indices->size() / 3;
   const auto context = static_cast<std::uint32_t>(SoGLCacheContextElement::get(state));
   private_->renderer.draw(context, picture, meshes);
 }

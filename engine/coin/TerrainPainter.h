@@ -14,6 +14,10 @@
 
 namespace teren {
 
+/// [m] Ground this far below the water cannot be told from the deep: it keeps less than half a hundredth of
+/// its colour (exp(-0.09 60), the shaders' law).
+inline constexpr float kOpaqueDepth = 60.0F;
+
 /// One look at a landscape, in scene coordinates.
 struct Picture {
   explicit Picture(const ScenePlacement& where) : placement(where) {}

@@ -105,28 +105,36 @@ uniform vec3 haze;
 uniform vec3 deep;
 uniform vec3 sun;
 uniform vec3 sunlight;
-uniform float surface;  // 0: only the deep, which lies behind everything; 1: the water's surface
 varying vec2 samples;
 varying vec4 view;
 
 void main() {
-  if (surface < 0.5) {
-    gl_FragColor = vec4(deep, 1.0);
-    return;
-  }
-  vec2 ripples = texture2D(noise, samples * (1.0 / 16.0)).rg + texture2D(noise, samples.yx * (1.0 / 128.0)).ba - 1.0;
-  vec3 normal = normalize(vec3(0.16 * ripples, 1.0));
+  vec2 ripples = texture2D(noise, samples * (1.0 / 32.0)).rg - 0.5;
+  vec3 normal = vec3(0.26 * ripples, 1.0);  // of length 1 within 2 %
   vec3 ray = normalize(view.xyz);
   vec3 mirrored = reflect(ray, normal);
   float grazing = 1.0 - clamp(abs(dot(ray, normal)), 0.0, 1.0);
   float squared = grazing * grazing;
   float fresnel = 0.03 + 0.85 * squared * squared * grazing;
   vec3 sky = mix(haze, vec3(0.26, 0.45, 0.72), sqrt(clamp(mirrored.z, 0.0, 1.0)));
-  float glint = pow(max(dot(mirrored, sun), 0.0), 160.0);
+  float glint = max(dot(mirrored, sun), 0.0);
+  glint *= glint;
+  glint *= glint;
+  glint *= glint;
+  glint *= glint;
+  glint *= glint;
+  glint *= glint * glint * glint;  // to the power of 128
   vec3 colour = mix(deep * 1.15, sky, fresnel) + sunlight * glint;
   float cover = max(0.62 + 0.38 * fresnel, glint);
   gl_FragColor = vec4(mix(colour, haze, view.w), mix(cover, 1.0, view.w));
 }
+)";
+
+/// The same disc, far below and behind everything.
+inline constexpr char kDeepFragmentShader[] = R"(#version 120
+uniform vec3 deep;
+
+void main() { gl_FragColor = vec4(deep, 1.0); }
 )";
 
 }  // namespace teren

@@ -88,8 +88,8 @@ TEST(Picture, MeshesMeetWithoutCracksWithoutShadersToo) {
 TEST(Picture, ShowsWhatIsNotUploadedYetAllTheSame) {
   const Stage stage;
   stage.terrain->waterLevel = -2e6F;
-  stage.terrain->setScene(makeScene({.side = 8, .intervals = 64, .spacing = 0.5, .height = hill}));
-  stage.look(SbVec3f(128.0F, 128.0F, 150.0F), 0.0, -90.0);
+  stage.terrain->setScene(makeScene({.side = 16, .intervals = 64, .spacing = 0.25, .height = hill}));
+  stage.look(SbVec3f(128.0F, 128.0F, 250.0F), 0.0, -90.0);
   OffscreenView view(320, 320);
   const QImage first = view.picture(stage.root, kMagenta);
   const std::size_t uploadedAtFirst = stage.terrain->bufferBytes();
