@@ -76,12 +76,25 @@ void pointAttributes(const std::byte* vertices) {
 const SbVec3f kDeepWater(0.05F, 0.16F, 0.22F);
 constexpr int kWaterRings = 32;
 constexpr int kWaterSectors = 64;
+constexpr int kClearRings = 14;  // the clear ones: see ringRadius() and kClearShare
 
-/// x and y of the disc's vertices: the centre, then ring by ring, denser inside.
+/// Share of the view distance; denser inside.
+constexpr float ringRadius(int ring) {
+  const float share = static_cast<float>(ring) / kWaterRings;
+  return share * share;
+}
+static_assert(ringRadius(kClearRings) == kClearShare);
+
+/// How many indices the rings before this one have: the innermost has one triangle a sector, the others two.
+constexpr int discIndices(int rings) {
+  return rings == 0 ? 0 : 3 * kWaterSectors * (2 * rings - 1);
+}
+
+/// x and y of the disc's vertices: the centre, then ring by ring.
 std::vector<float> discVertices() {
   std::vector<float> vertices{0.0F, 0.0F};
   for (int ring = 1; ring <= kWaterRings; ++ring) {
-    const double radius = std::pow(static_cast<double>(ring) / kWaterRings, 2.0);
+    const auto radius = static_cast<double>(ringRadius(ring));
     for (int sector = 0; sector < kWaterSectors; ++sector) {
       const double angle = 2.0 * std::numbers::pi * sector / kWaterSectors;
       vertices.push_back(static_cast<float>(radius * std::cos(angle)));
@@ -222,10 +235,8 @@ void ShaderPainter::makeNoise() {
 }
 
 void ShaderPainter::makeWater() {
-  const std::vector<std::uint16_t> triangles = discTriangles();
-  waterCount_ = static_cast<int>(triangles.size());
   waterBytes_ = uploadOnce(GL_ARRAY_BUFFER, waterVertices_, discVertices());
-  waterBytes_ += uploadOnce(GL_ELEMENT_ARRAY_BUFFER, waterIndices_, triangles);
+  waterBytes_ += uploadOnce(GL_ELEMENT_ARRAY_BUFFER, waterIndices_, discTriangles());
 }
 
 void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
@@ -248,6 +259,7 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
     program->set("haze", picture.haze);
     program->set("sunlight", picture.sunlight);
     program->set("deep", kDeepWater);
+    program->set("clearShare", kClearShare);
     if (program == &ground_) {
       program->set("eye", eye[0], eye[1]);
     } else {
@@ -257,14 +269,14 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
 
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, noise_);
-  if (picture.water) drawDeep();
+  if (picture.water) drawFarWater();
   // Backs of the ground are seen only from below; a mirroring model matrix turns fronts into backs.
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(picture.toEye.det3() < 0.0 ? GL_CW : GL_CCW);
   drawGround(reference, meshes);
   glDisable(GL_CULL_FACE);
-  if (picture.water) drawSurface();
+  if (picture.water) drawClearWater();
 }
 
 void ShaderPainter::drawGround(const Sample& reference, std::span<const Mesh* const> meshes) {
@@ -285,28 +297,32 @@ void ShaderPainter::drawGround(const Sample& reference, std::span<const Mesh* co
   for (const GLuint attribute : {kCell, kHeight, kSlope}) glDisableVertexAttribArray(attribute);
 }
 
-void ShaderPainter::drawDeep() const {
+void ShaderPainter::drawFarWater() const {
+  glDisable(GL_BLEND);
+  water_.use();
+  drawRings(kClearRings, kWaterRings - kClearRings);
   glPushAttrib(GL_DEPTH_BUFFER_BIT);
   glDepthMask(GL_FALSE);
-  glDisable(GL_BLEND);
   deep_.use();
-  drawDisc();
+  drawRings(0, kClearRings);
   glPopAttrib();
 }
 
-void ShaderPainter::drawSurface() const {
+void ShaderPainter::drawClearWater() const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   water_.use();
-  drawDisc();
+  drawRings(0, kClearRings);
 }
 
-void ShaderPainter::drawDisc() const {
+void ShaderPainter::drawRings(int first, int count) const {
+  const int start = discIndices(first);
+  const auto offset = static_cast<std::size_t>(start) * sizeof(std::uint16_t);
   glBindBuffer(GL_ARRAY_BUFFER, waterVertices_);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, waterIndices_);
   glEnableVertexAttribArray(kCell);
   glVertexAttribPointer(kCell, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-  glDrawElements(GL_TRIANGLES, waterCount_, GL_UNSIGNED_SHORT, nullptr);
+  glDrawElements(GL_TRIANGLES, discIndices(first + count) - start, GL_UNSIGNED_SHORT, at(nullptr, offset));
   glDisableVertexAttribArray(kCell);
 }
 

@@ -45,16 +45,16 @@ class ShaderPainter final : public TerrainPainter {
   void makeNoise();
   void makeWater();
   void drawGround(const Sample& reference, std::span<const Mesh* const> meshes);
-  /// Behind everything: so that through the water one never sees past the end of the ground.
-  void drawDeep() const;
-  void drawSurface() const;
-  void drawDisc() const;
+  /// Before the ground: the opaque water, and behind everything what one sees deep in the clear water.
+  void drawFarWater() const;
+  /// After the ground.
+  void drawClearWater() const;
+  void drawRings(int first, int count) const;
 
   ShaderProgram ground_, water_, deep_;
   TerrainBuffers buffers_;
   unsigned noise_ = 0;
   unsigned waterVertices_ = 0, waterIndices_ = 0;
-  int waterCount_ = 0;
   std::size_t waterBytes_ = 0;
 };
 

@@ -414,9 +414,7 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
   picture.water = std::any_of(meshes.begin(), meshes.end(),
                               [&](const teren::Mesh* mesh) { return mesh->minHeight < picture.waterLevel; });
   if (static_cast<double>(picture.eye[2]) + private_->origin[2] > static_cast<double>(picture.waterLevel)) {
-    std::erase_if(meshes, [&](const teren::Mesh* mesh) {
-      return mesh->maxHeight < picture.waterLevel - teren::kOpaqueDepth;
-    });
+    std::erase_if(meshes, [&](const teren::Mesh* mesh) { return teren::isLostInWater(*mesh, picture); });
   }
   for (const teren::Mesh* mesh : meshes) private_->drawnTriangles += mesh->indices->size() / 3;
   const auto context = static_cast<std::uint32_t>(SoGLCacheContextElement::get(state));

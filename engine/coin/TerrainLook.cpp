@@ -37,6 +37,14 @@ Sun sunOf(SoState* state) {
   return {};
 }
 
+bool isLostInWater(const Mesh& mesh, const Picture& picture) {
+  if (mesh.maxHeight < picture.waterLevel - kOpaqueDepth) return true;
+  if (mesh.maxHeight >= picture.waterLevel) return false;
+  SbVec3f away = picture.placement.box(mesh).getClosestPoint(picture.eye) - picture.eye;
+  away[2] = 0.0F;
+  return away.length() > kClearShare * picture.viewDistance;
+}
+
 std::vector<const Mesh*> visibleMeshes(SoState* state, const Scene& scene, const ScenePlacement& placement) {
   const SbVec3f eye = eyePosition(state);
   std::vector<std::pair<float, const Mesh*>> ranked;

@@ -10,6 +10,7 @@
 #include "teren/Scene.h"
 
 #include "coin/ScenePlacement.h"
+#include "coin/TerrainPainter.h"
 
 class SoState;
 
@@ -24,6 +25,9 @@ struct Sun {
   SbColor light{0.98F, 0.90F, 0.76F};           ///< its colour times its intensity
 };
 Sun sunOf(SoState* state);
+
+/// Whether a mesh cannot be seen through the water, from above it: too deep, or below opaque water.
+bool isLostInWater(const Mesh& mesh, const Picture& picture);
 
 /// The meshes that are not outside the view volume or a clipping plane, nearest to the eye first.
 std::vector<const Mesh*> visibleMeshes(SoState* state, const Scene& scene, const ScenePlacement& placement);

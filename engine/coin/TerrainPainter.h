@@ -14,9 +14,11 @@
 
 namespace teren {
 
-/// [m] Ground this far below the water cannot be told from the deep: it keeps less than half a hundredth of
-/// its colour (exp(-0.09 60), the shaders' law).
+/// What lies below the water is seen only where the water is shallow and near: ground this far [m] below it
+/// keeps less than half a hundredth of its colour (exp(-0.09 60), the shaders' law), and beyond this share of
+/// the view distance the water is opaque, so that no time is spent on a sea bed at grazing angles.
 inline constexpr float kOpaqueDepth = 60.0F;
+inline constexpr float kClearShare = 14.0F * 14.0F / (32.0F * 32.0F);
 
 /// One look at a landscape, in scene coordinates.
 struct Picture {
