@@ -1,0 +1,45 @@
+// The command line of teren-fly.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <QSize>
+
+#include "teren/Engine.h"
+#include "teren/Result.h"
+
+namespace teren {
+
+/// What remains once the world is known (see options/WorldOptions.h).
+struct FlyOptions {
+  ViewSettings view;
+  double speed = 60.0;  ///< [m/s]
+  QSize size{1280, 720};
+  std::optional<double> seconds;  ///< how long to fly; empty: until the person quits
+  std::string screenshot, stats;  ///< files; empty: none
+};
+
+/// Declares the options on an application, which must live as long as this.
+class FlyCommandLine {
+ public:
+  explicit FlyCommandLine(CLI::App& application);
+
+  /// After parsing. Errors are of the kind kWrongInput.
+  Result<FlyOptions> resolve(const World& world) const;
+
+ private:
+  Result<ViewSettings> view(const World& world) const;
+
+  const CLI::Option* viewDistance_;
+  const CLI::Option* viewLevel_;
+  const CLI::Option* radius_;
+  const CLI::Option* speed_;
+  const CLI::Option* size_;
+  const CLI::Option* seconds_;
+  const CLI::Option* screenshot_;
+  const CLI::Option* stats_;
+};
+
+}  // namespace teren

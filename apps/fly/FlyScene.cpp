@@ -1,0 +1,100 @@
+#include "apps/fly/FlyScene.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include <Inventor/nodes/SoDirectionalLight.h>
+#include <Inventor/nodes/SoEnvironment.h>
+#include <Inventor/nodes/SoPerspectiveCamera.h>
+#include <Inventor/nodes/SoSeparator.h>
+#include <Inventor/nodes/SoSwitch.h>
+
+#include "coin/SoTerrain.h"
+
+namespace teren {
+namespace {
+
+constexpr float kNearest = 1.0F;         // [m] the near clipping plane
+constexpr float kFarthestFactor = 1.6F;  // far clipping plane in view distances: to the corners of the square
+constexpr float kFarthestAtLeast = 500.0F;  // [m] so that the sky fits in
+const std::array kPaints{SbColor(0.80F, 0.12F, 0.08F), SbColor(0.05F, 0.28F, 0.60F)};
+
+SoSeparator* uncached() {
+  auto* separator = new SoSeparator;
+  separator->renderCaching = SoSeparator::OFF;
+  separator->renderCulling = SoSeparator::OFF;
+  return separator;
+}
+
+}  // namespace
+
+FlyScene::FlyScene(const Daylight& light, std::size_t aircraft, double viewDistance)
+    : root_(uncached()), camera_(new SoPerspectiveCamera), terrain_(new SoTerrain), sky_(light) {
+  root_->ref();
+  const auto distance = static_cast<float>(viewDistance);
+  camera_->nearDistance = kNearest;
+  camera_->farDistance = std::max(kFarthestAtLeast, kFarthestFactor * distance);
+  root_->addChild(camera_);
+  root_->addChild(sky_.node());
+  auto* environment = new SoEnvironment;
+  environment->ambientIntensity = 0.38F;
+  environment->ambientColor = SbColor(0.78F, 0.86F, 1.0F);
+  root_->addChild(environment);
+  auto* sun = new SoDirectionalLight;
+  sun->direction = -light.sun;
+  sun->color = light.sunlight;
+  root_->addChild(sun);
+  terrain_->waterLevel = light.waterLevel;
+  terrain_->hazeColor = light.haze;
+  terrain_->viewDistance = distance;
+  SoSeparator* land = uncached();
+  land->addChild(terrain_);
+  root_->addChild(land);
+  for (std::size_t index = 0; index < aircraft; ++index) {
+    models_.push_back(std::make_unique<AircraftModel>(kPaints[index % kPaints.size()]));
+    root_->addChild(models_.back()->node());
+  }
+}
+
+FlyScene::~FlyScene() {
+  models_.clear();
+  root_->unref();
+}
+
+SbVec3f FlyScene::place(const Position& position, double height, double pitch) const {
+  const Offset away = offset(zero_.position(), position, pitch);
+  return {static_cast<float>(away.east), static_cast<float>(away.north), static_cast<float>(height)};
+}
+
+void FlyScene::moveZero(double pitch) {
+  const Position& zero = zero_.position();
+  terrain_->origin = SbVec3d(zero.x(pitch), zero.y(pitch), 0.0);
+}
+
+void FlyScene::show(const Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt) {
+  const double pitch = flight.engine().world().pitch();
+  const Attitude& eye = view.attitude;
+  if (zero_.follow(eye.position, pitch)) moveZero(pitch);
+  terrain_->setScene(flight.engine().scene());
+
+  // The camera of Inventor looks down its -z axis with y up; the attitude's rest looks north with z up.
+  const SbRotation upright(SbVec3f(1.0F, 0.0F, 0.0F), std::numbers::pi_v<float> / 2.0F);
+  const SbVec3f place = this->place(eye.position, eye.height, pitch);
+  camera_->position = place;
+  camera_->orientation = upright * rotationOf(eye);
+  camera_->heightAngle = static_cast<float>(view.fieldOfView);
+  sky_.moveTo(place);
+
+  for (std::size_t index = 0; index < models_.size(); ++index) {
+    const Attitude aircraft = flight.aircraft()[index]->attitude();
+    models_[index]->setVisible(person == CameraRig::Person::third || index != flight.active());
+    models_[index]->show(this->place(aircraft.position, aircraft.height, pitch), aircraft, dt);
+  }
+}
+
+std::size_t FlyScene::bufferBytes() const {
+  return terrain_->bufferBytes();
+}
+
+}  // namespace teren

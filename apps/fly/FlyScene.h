@@ -1,0 +1,49 @@
+// The scene graph of the demo: camera, sky, sun, land and aircraft, kept in step with a flight.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "apps/fly/AircraftModel.h"
+#include "apps/fly/CameraRig.h"
+#include "apps/fly/Daylight.h"
+#include "apps/fly/Flight.h"
+#include "apps/fly/SceneZero.h"
+#include "apps/fly/SkyDome.h"
+
+class SoPerspectiveCamera;
+class SoSeparator;
+class SoTerrain;
+
+namespace teren {
+
+/// Make it after SoQt::init and SoTerrain::initClass; it must go before Coin does.
+class FlyScene {
+ public:
+  /// `viewDistance` [m] is where the haze hides the land.
+  FlyScene(const Daylight& light, std::size_t aircraft, double viewDistance);
+  ~FlyScene();
+  FlyScene(const FlyScene&) = delete;
+  FlyScene& operator=(const FlyScene&) = delete;
+
+  SoSeparator* node() const noexcept { return root_; }
+
+  /// Shows the flight as it is now, seen from `view`; in first person the aircraft one sits in is left out.
+  void show(const Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt);
+
+  std::size_t bufferBytes() const;  ///< held on the graphics card for the land
+
+ private:
+  SbVec3f place(const Position& position, double height, double pitch) const;
+  void moveZero(double pitch);
+
+  SoSeparator* root_;  // referenced
+  SoPerspectiveCamera* camera_;
+  SoTerrain* terrain_;
+  SkyDome sky_;
+  std::vector<std::unique_ptr<AircraftModel>> models_;
+  SceneZero zero_;
+};
+
+}  // namespace teren

@@ -1,0 +1,272 @@
+#include "apps/fly/FlyWindow.h"
+
+#include <algorithm>
+#include <csignal>
+#include <string>
+
+#include <Inventor/nodes/SoSeparator.h>
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDateTime>
+#include <QDir>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QStandardPaths>
+#include <QVBoxLayout>
+#include <QWheelEvent>
+
+#include "apps/fly/SavedFiles.h"
+
+namespace teren {
+namespace {
+
+constexpr double kRadiansPerPixel = 0.005;
+constexpr double kWheelNotch = 120.0;  // in Qt's eighths of a degree
+constexpr std::chrono::milliseconds kBetweenFigures(150);
+constexpr std::chrono::milliseconds kBetweenHiddenFrames(50);
+constexpr std::chrono::seconds kSentenceTime(4);
+constexpr std::size_t kFramesShown = 30;  // that the times on the display look back
+
+volatile std::sig_atomic_t quitAsked = 0;
+
+double seconds(FlyWindow::Clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+double frameStep(FlyWindow::Clock::duration duration) {
+  return std::clamp(seconds(duration), 0.0, Flight::kLongestStep);
+}
+
+QString pictureFile() {
+  const QString pictures = QStandardPaths::writableLocation(QStandardPaths::PicturesLocation);
+  const QDir folder(QDir(pictures).exists() ? pictures : QDir::currentPath());
+  const QString time = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd-hhmmss-zzz"));
+  return folder.absoluteFilePath(QStringLiteral("teren-%1.png").arg(time));
+}
+
+}  // namespace
+
+FlyWindow::FlyWindow(Flight& flight, const Daylight& light, QSize size)
+    : flight_(flight),
+      daylight_(light),
+      scene_(light, flight.aircraft().size(), flight.engine().view().reach(flight.engine().world())),
+      area_(new RenderArea(this)) {
+  setWindowTitle(QStringLiteral("Teren"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(area_->getWidget());
+  area_->setBackgroundColor(light.haze);
+  area_->setSceneGraph(scene_.node());
+  area_->setOverlay([this](QSize pixels) { display_.draw(pixels); });
+  QWidget* canvas = area_->getGLWidget();
+  canvas->setFocusPolicy(Qt::StrongFocus);
+  canvas->installEventFilter(this);  // after SoQt's own, so it sees the events first
+  setFocusProxy(canvas);
+  timer_.callOnTimeout(this, [this] { tick(); });
+  resize(size);
+}
+
+FlyWindow::~FlyWindow() {
+  area_->setSceneGraph(nullptr);
+  delete area_;
+}
+
+void FlyWindow::quitSoon() noexcept {
+  quitAsked = 1;
+}
+
+bool FlyWindow::settle() {
+  show();
+  area_->show();
+  setFocus();
+  flight_.settle([this](std::size_t done, std::size_t wanted) {
+    const std::size_t percent = wanted == 0 ? 100 : 100 * done / wanted;
+    display_.setBanner("making the land: " + std::to_string(percent) + " %");
+    QApplication::processEvents();
+    updateScene(0.0);
+    area_->render();
+    return !leaving_ && quitAsked == 0;
+  });
+  display_.setBanner({});
+  return !leaving_ && quitAsked == 0;
+}
+
+void FlyWindow::fly(std::optional<Clock::duration> duration) {
+  duration_ = duration;
+  begin_ = lastTick_ = lastPresented_ = Clock::now();
+  timer_.start(0);
+}
+
+bool FlyWindow::isLastFrame(Clock::time_point now) const {
+  if (leaving_ || quitAsked != 0) return true;
+  return duration_ && now - begin_ >= *duration_ && frameTimes_.count() + 1 >= kFramesAtLeast;
+}
+
+void FlyWindow::tick() {
+  const Clock::time_point now = Clock::now();
+  const double dt = frameStep(now - lastTick_);
+  lastTick_ = now;
+  const bool last = isLastFrame(now);
+  flight_.advance(paused_ ? 0.0 : dt, keys_.controls());
+  rig_.update(dt, keys_.cameraMoves(), flight_.activeAircraft().attitude());
+  updateScene(paused_ ? 0.0 : dt);
+  if (last || now - lastFigures_ > kBetweenFigures) {
+    showFigures();
+    lastFigures_ = now;
+  }
+  if (last || pictureWanted_) {
+    const QImage picture = area_->renderAndRead();
+    if (pictureWanted_) keepPicture(picture);
+    if (last) lastPicture_ = picture;
+  } else {
+    area_->render();
+  }
+  const Clock::time_point presented = Clock::now();
+  frameTimes_.add(1e3 * seconds(presented - lastPresented_));
+  lastPresented_ = presented;
+  timer_.setInterval(isMinimized() ? kBetweenHiddenFrames : std::chrono::milliseconds(0));
+  if (last) {
+    timer_.stop();
+    QApplication::exit(0);
+  }
+}
+
+void FlyWindow::updateScene(double dt) {
+  const Viewpoint view = rig_.viewpoint(flight_.activeAircraft().attitude(), flight_.engine().ground(),
+                                        static_cast<double>(daylight_.waterLevel));
+  scene_.show(flight_, view, rig_.person(), dt);
+}
+
+std::size_t FlyWindow::bytes() const {
+  return flight_.engine().figures().bytes + scene_.bufferBytes();
+}
+
+void FlyWindow::showFigures() {
+  const Aircraft& aircraft = flight_.activeAircraft();
+  const EngineFigures engine = flight_.engine().figures();
+  FlightFigures figures;
+  figures.position = aircraft.motion().position;
+  figures.pitch = flight_.engine().world().pitch();
+  figures.height = aircraft.motion().height;
+  figures.heightAboveGround = aircraft.heightAboveGround();
+  figures.speed = aircraft.speed();
+  figures.heading = aircraft.heading();
+  figures.frameMilliseconds = frameTimes_.latest(kFramesShown).p50;
+  figures.engineMilliseconds = 1e-3 * flight_.engineTimes().latest(kFramesShown).p50;
+  figures.nodes = engine.nodes;
+  figures.triangles = engine.triangles;
+  figures.bytes = bytes();
+  figures.pending = engine.pending;
+  display_.setFigures(figures);
+}
+
+bool FlyWindow::eventFilter(QObject* watched, QEvent* event) {
+  switch (event->type()) {
+    case QEvent::KeyPress:
+    case QEvent::KeyRelease:
+      return keyEvent(*static_cast<const QKeyEvent*>(event));
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonRelease:
+    case QEvent::MouseMove:
+      return mouseEvent(*event);
+    case QEvent::Wheel:
+      rig_.zoom(static_cast<const QWheelEvent*>(event)->angleDelta().y() / kWheelNotch);
+      return true;
+    case QEvent::FocusOut:  // their release would go elsewhere
+      keys_.releaseAll();
+      dragFrom_.reset();
+      break;
+    default:
+      break;
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+bool FlyWindow::keyEvent(const QKeyEvent& event) {
+  const bool keypad = event.modifiers().testFlag(Qt::KeypadModifier);
+  const std::optional<Action> action = KeyMap::action(event.key(), keypad);
+  if (!action) return false;
+  if (event.isAutoRepeat()) return true;
+  if (event.type() == QEvent::KeyRelease) {
+    keys_.release(event.key(), keypad);
+  } else if (isHeldAction(*action)) {
+    keys_.press(event.key(), keypad);
+  } else {
+    act(*action);
+  }
+  return true;
+}
+
+bool FlyWindow::mouseEvent(const QEvent& event) {
+  const auto& mouse = static_cast<const QMouseEvent&>(event);
+  if (event.type() == QEvent::MouseMove && dragFrom_) {
+    const QPoint moved = mouse.pos() - *dragFrom_;
+    rig_.look(kRadiansPerPixel * moved.x(), -kRadiansPerPixel * moved.y());
+    dragFrom_ = mouse.pos();
+  } else if (event.type() == QEvent::MouseButtonPress) {
+    dragFrom_ = mouse.pos();
+  } else if (event.type() == QEvent::MouseButtonRelease) {
+    dragFrom_.reset();
+  }
+  return true;
+}
+
+void FlyWindow::act(Action action) {
+  switch (action) {
+    case Action::cameraReset:
+      rig_.reset();
+      break;
+    case Action::switchPerson:
+      rig_.togglePerson();
+      break;
+    case Action::nextObject:
+      flight_.nextObject();
+      display_.say("aircraft " + std::to_string(flight_.active() + 1), kSentenceTime);
+      break;
+    case Action::pause:
+      togglePause();
+      break;
+    case Action::help:
+      display_.toggleHelp();
+      break;
+    case Action::fullScreen:
+      toggleFullScreen();
+      break;
+    case Action::screenshot:
+      pictureWanted_ = true;
+      break;
+    case Action::quit:
+      close();
+      break;
+    default:
+      break;  // held keys are read every frame
+  }
+}
+
+void FlyWindow::togglePause() {
+  paused_ = !paused_;
+  display_.setBanner(paused_ ? "paused" : "");
+}
+
+void FlyWindow::toggleFullScreen() {
+  if (isFullScreen()) {
+    showNormal();
+  } else {
+    showFullScreen();
+  }
+}
+
+void FlyWindow::keepPicture(const QImage& picture) {
+  pictureWanted_ = false;
+  const std::string file = pictureFile().toStdString();
+  const Result<void> saved = savePicture(picture, file);
+  display_.say(saved ? "screenshot: " + file : saved.error().message, kSentenceTime);
+}
+
+void FlyWindow::closeEvent(QCloseEvent* event) {
+  leaving_ = true;
+  // While it flies, the last frame is still to be drawn; tick() ends the program then.
+  event->setAccepted(!timer_.isActive());
+}
+
+}  // namespace teren

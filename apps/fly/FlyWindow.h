@@ -1,0 +1,82 @@
+// The window of the demo: keys and mouse in, one frame after another out.
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include <QImage>
+#include <QPoint>
+#include <QTimer>
+#include <QWidget>
+
+#include "apps/fly/CameraRig.h"
+#include "apps/fly/Daylight.h"
+#include "apps/fly/Flight.h"
+#include "apps/fly/FlyScene.h"
+#include "apps/fly/FrameStatistics.h"
+#include "apps/fly/HeadUpDisplay.h"
+#include "apps/fly/KeyMap.h"
+#include "apps/fly/RenderArea.h"
+
+namespace teren {
+
+/// Shows a flight and lets a person steer it. Make it after SoQt::init and SoTerrain::initClass and delete it
+/// before SoQt::done.
+class FlyWindow : public QWidget {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  FlyWindow(Flight& flight, const Daylight& light, QSize size);
+  ~FlyWindow() override;
+
+  /// Shows the window while the flight settles: the land as it grows, and how much of it is there. Returns
+  /// false if the person closed it meanwhile.
+  bool settle();
+
+  /// Starts flying; leaves QApplication::exec() when the person quits or after `duration`. At least
+  /// kFramesAtLeast frames are flown.
+  void fly(std::optional<Clock::duration> duration);
+  static constexpr std::size_t kFramesAtLeast = 3;
+
+  /// After the flight: the last frame, head-up display included; null if nothing could be drawn.
+  const QImage& lastPicture() const noexcept { return lastPicture_; }
+  /// [ms] between the moments at which successive frames were presented.
+  const FrameStatistics& frameTimes() const noexcept { return frameTimes_; }
+  std::size_t bytes() const;  ///< the engine's and the graphics buffers'
+
+  /// Asks every window to draw its last frame and leave; may be called from a signal handler.
+  static void quitSoon() noexcept;
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  void tick();
+  void updateScene(double dt);
+  void showFigures();
+  bool isLastFrame(Clock::time_point now) const;
+  bool keyEvent(const QKeyEvent& event);
+  bool mouseEvent(const QEvent& event);
+  void act(Action action);
+  void togglePause();
+  void toggleFullScreen();
+  void keepPicture(const QImage& picture);
+
+  Flight& flight_;
+  Daylight daylight_;
+  FlyScene scene_;
+  HeadUpDisplay display_;
+  CameraRig rig_;
+  HeldKeys keys_;
+  QTimer timer_;
+  RenderArea* area_;  // owned; goes before its widgets
+  std::optional<QPoint> dragFrom_;
+  bool paused_ = false, leaving_ = false, pictureWanted_ = false;
+  std::optional<Clock::duration> duration_;
+  Clock::time_point begin_{}, lastTick_{}, lastPresented_{}, lastFigures_{};
+  FrameStatistics frameTimes_;
+  QImage lastPicture_;
+};
+
+}  // namespace teren

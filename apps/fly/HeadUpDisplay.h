@@ -1,0 +1,52 @@
+// Text over the picture: the figures of the flight, the help, and passing messages.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include <QImage>
+#include <QPoint>
+#include <QSize>
+
+#include "apps/fly/FlightFigures.h"
+
+namespace teren {
+
+/// Shaded panels with text, painted once when their content changes and drawn every frame as textures, pixel
+/// on pixel. Makes its textures in the GL context of the first draw() and leaves them to die with it.
+class HeadUpDisplay {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  void setFigures(const FlightFigures& figures);
+  void toggleHelp();
+  bool helpVisible() const noexcept { return help_.visible; }
+  /// Shows a sentence at the bottom for `duration`, in place of the one before.
+  void say(const std::string& sentence, Clock::duration duration);
+  /// A word that stays in the middle until it is changed; empty: none.
+  void setBanner(const std::string& word);
+
+  /// Draws into the current GL context, over what is there; `pixels` is the size of the picture. Leaves the
+  /// GL state as it was.
+  void draw(QSize pixels);
+
+ private:
+  struct Panel {
+    QImage image;   // premultiplied
+    QPoint corner;  // the upper left one, in pixels from the picture's upper left
+    unsigned texture = 0;
+    bool visible = false;
+    bool changed = false;
+  };
+  void show(Panel& panel, QImage image);
+  void place(QSize pixels);
+  static void draw(Panel& panel);
+
+  Panel figures_, help_, sentence_, banner_, hint_;
+  std::vector<FigureLine> lines_;
+  std::string bannerWord_;
+  Clock::time_point sentenceEnd_{};
+};
+
+}  // namespace teren

@@ -1,0 +1,124 @@
+#include "apps/fly/KeyMap.h"
+
+#include <algorithm>
+#include <array>
+
+#include <Qt>
+
+namespace teren {
+namespace {
+
+enum class Where { anywhere, keypad, elsewhere };
+
+struct Row {
+  int key;
+  Where where;
+  Action action;
+};
+
+// The number pad sends digits with NumLock and cursor keys without; both are listed.
+constexpr std::array kRows{
+    Row{Qt::Key_8, Where::keypad, Action::cameraForward},
+    Row{Qt::Key_Up, Where::keypad, Action::cameraForward},
+    Row{Qt::Key_2, Where::keypad, Action::cameraBack},
+    Row{Qt::Key_Down, Where::keypad, Action::cameraBack},
+    Row{Qt::Key_4, Where::keypad, Action::cameraLeft},
+    Row{Qt::Key_Left, Where::keypad, Action::cameraLeft},
+    Row{Qt::Key_6, Where::keypad, Action::cameraRight},
+    Row{Qt::Key_Right, Where::keypad, Action::cameraRight},
+    Row{Qt::Key_5, Where::keypad, Action::cameraReset},
+    Row{Qt::Key_Clear, Where::anywhere, Action::cameraReset},
+    Row{Qt::Key_9, Where::keypad, Action::cameraUp},
+    Row{Qt::Key_3, Where::keypad, Action::cameraDown},
+    Row{Qt::Key_Up, Where::elsewhere, Action::faster},
+    Row{Qt::Key_W, Where::anywhere, Action::faster},
+    Row{Qt::Key_Down, Where::elsewhere, Action::slower},
+    Row{Qt::Key_S, Where::anywhere, Action::slower},
+    Row{Qt::Key_Left, Where::elsewhere, Action::turnLeft},
+    Row{Qt::Key_A, Where::anywhere, Action::turnLeft},
+    Row{Qt::Key_Right, Where::elsewhere, Action::turnRight},
+    Row{Qt::Key_D, Where::anywhere, Action::turnRight},
+    Row{Qt::Key_R, Where::anywhere, Action::climb},
+    Row{Qt::Key_F, Where::anywhere, Action::descend},
+    Row{Qt::Key_I, Where::anywhere, Action::cameraForward},
+    Row{Qt::Key_K, Where::anywhere, Action::cameraBack},
+    Row{Qt::Key_J, Where::anywhere, Action::cameraLeft},
+    Row{Qt::Key_L, Where::anywhere, Action::cameraRight},
+    Row{Qt::Key_PageUp, Where::anywhere, Action::cameraUp},
+    Row{Qt::Key_PageDown, Where::anywhere, Action::cameraDown},
+    Row{Qt::Key_Home, Where::anywhere, Action::cameraReset},
+    Row{Qt::Key_C, Where::anywhere, Action::switchPerson},
+    Row{Qt::Key_Tab, Where::anywhere, Action::nextObject},
+    Row{Qt::Key_P, Where::anywhere, Action::pause},
+    Row{Qt::Key_F1, Where::anywhere, Action::help},
+    Row{Qt::Key_F11, Where::anywhere, Action::fullScreen},
+    Row{Qt::Key_F12, Where::anywhere, Action::screenshot},
+    Row{Qt::Key_Escape, Where::anywhere, Action::quit},
+};
+
+constexpr std::array<HelpLine, 14> kHelp{{
+    {"Up, Down  or  W, S", "faster, slower"},
+    {"Left, Right  or  A, D", "turn"},
+    {"R, F", "climb, descend"},
+    {"mouse drag", "look around"},
+    {"wheel", "zoom"},
+    {"Num 8 2 4 6  or  I K J L", "camera forward, back, left, right"},
+    {"PageUp, PageDown", "camera up, down"},
+    {"Num 5  or  Home", "camera back to its default"},
+    {"C", "first or third person"},
+    {"Tab", "next aircraft"},
+    {"P", "pause"},
+    {"F1", "this help"},
+    {"F11, F12", "full screen, screenshot"},
+    {"Escape", "quit"},
+}};
+
+}  // namespace
+
+bool isHeldAction(Action action) noexcept {
+  return action < Action::cameraReset;
+}
+
+std::optional<Action> KeyMap::action(int key, bool keypad) noexcept {
+  const auto row = std::find_if(kRows.begin(), kRows.end(), [key, keypad](const Row& candidate) {
+    const bool here = candidate.where == Where::anywhere || (candidate.where == Where::keypad) == keypad;
+    return candidate.key == key && here;
+  });
+  if (row == kRows.end()) return std::nullopt;
+  return row->action;
+}
+
+std::span<const HelpLine> KeyMap::help() noexcept {
+  return kHelp;
+}
+
+void HeldKeys::press(int key, bool keypad) {
+  const std::optional<Action> action = KeyMap::action(key, keypad);
+  if (action && isHeldAction(*action)) keys_.emplace(key, keypad);
+}
+
+void HeldKeys::release(int key, bool keypad) {
+  keys_.erase({key, keypad});
+}
+
+bool HeldKeys::held(Action action) const {
+  return std::any_of(keys_.begin(), keys_.end(), [action](const std::pair<int, bool>& key) {
+    return KeyMap::action(key.first, key.second) == action;
+  });
+}
+
+double HeldKeys::between(Action negative, Action positive) const {
+  return (held(positive) ? 1.0 : 0.0) - (held(negative) ? 1.0 : 0.0);
+}
+
+AircraftControls HeldKeys::controls() const {
+  return {between(Action::turnLeft, Action::turnRight), between(Action::slower, Action::faster),
+          between(Action::descend, Action::climb)};
+}
+
+CameraMoves HeldKeys::cameraMoves() const {
+  return {between(Action::cameraBack, Action::cameraForward),
+          between(Action::cameraLeft, Action::cameraRight), between(Action::cameraDown, Action::cameraUp)};
+}
+
+}  // namespace teren

@@ -1,0 +1,219 @@
+// Runs teren-fly as a person would, and looks at what it leaves.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <set>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include <QColor>
+#include <QImage>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/fly/PrivateDisplay.h"
+
+namespace teren {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Run {
+  int exitCode = -1;
+  std::string output, errors;
+};
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class Fly : public testing::Test {
+ protected:
+  static constexpr int kWidth = 960, kHeight = 540;
+
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("teren-fly-test-" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+    display_ = std::make_unique<PrivateDisplay>();
+    if (display_->name().empty()) return;
+    flight_ = run("--seconds 2 --size 960x540 --radius 4 --screenshot " + (folder_ / "a.png").string() +
+                  " --stats " + (folder_ / "a.json").string());
+    picture_ = QImage(QString::fromStdString((folder_ / "a.png").string()));
+  }
+  static void TearDownTestSuite() {
+    display_.reset();
+    fs::remove_all(folder_);
+  }
+  void SetUp() override { ASSERT_FALSE(display_->name().empty()) << "Xvfb did not start"; }
+
+  static Run run(const std::string& arguments) { return runOn(display_->name(), arguments); }
+  static Run runOn(const std::string& display, const std::string& arguments) {
+    const fs::path output = folder_ / "output", errors = folder_ / "errors";
+    const std::string command =
+        "env -u WAYLAND_DISPLAY -u XDG_RUNTIME_DIR LIBGL_ALWAYS_SOFTWARE=1 DISPLAY=" + display +
+        " " TEREN_FLY_PROGRAM " " + arguments + " >" + output.string() + " 2>" + errors.string() +
+        " </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
+  }
+
+  /// The mean colour of a part of the picture, given in hundredths of its sides.
+  static QColor mean(int left, int top, int right, int bottom) {
+    double sums[3] = {};
+    int count = 0;
+    for (int y = kHeight * top / 100; y < kHeight * bottom / 100; ++y) {
+      for (int x = kWidth * left / 100; x < kWidth * right / 100; ++x, ++count) {
+        const QRgb color = picture_.pixel(x, y);
+        sums[0] += qRed(color);
+        sums[1] += qGreen(color);
+        sums[2] += qBlue(color);
+      }
+    }
+    return {static_cast<int>(sums[0] / count), static_cast<int>(sums[1] / count),
+            static_cast<int>(sums[2] / count)};
+  }
+
+  static std::unique_ptr<PrivateDisplay> display_;
+  static fs::path folder_;
+  static Run flight_;
+  static QImage picture_;
+};
+
+std::unique_ptr<PrivateDisplay> Fly::display_;
+fs::path Fly::folder_;
+Run Fly::flight_;
+QImage Fly::picture_;
+
+TEST_F(Fly, EndsByItselfWithoutAWord) {
+  EXPECT_EQ(flight_.exitCode, 0);
+  EXPECT_EQ(flight_.output, "");
+  EXPECT_EQ(flight_.errors, "");
+}
+
+TEST_F(Fly, LeavesAPictureOfTheWindowsSize) {
+  ASSERT_FALSE(picture_.isNull());
+  EXPECT_EQ(picture_.width(), kWidth);
+  EXPECT_EQ(picture_.height(), kHeight);
+}
+
+TEST_F(Fly, ShowsBlueSkyAboveAndLandBelow) {
+  ASSERT_FALSE(picture_.isNull());
+  const QColor sky = mean(50, 0, 100, 8), land = mean(0, 80, 85, 100);
+  EXPECT_GT(sky.blue(), sky.red() + 25);
+  EXPECT_GT(sky.lightness(), 90);
+  EXPECT_LT(land.blue() - land.red(), sky.blue() - sky.red() - 15);
+  EXPECT_LT(land.lightness(), sky.lightness());
+  EXPECT_GT(land.lightness(), 20);
+}
+
+TEST_F(Fly, ShowsLandOfManyShadesAndNothingBlack) {
+  ASSERT_FALSE(picture_.isNull());
+  std::set<QRgb> shades;
+  int black = 0;
+  for (int y = kHeight * 3 / 4; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth * 85 / 100; ++x) {
+      const QRgb color = picture_.pixel(x, y);
+      shades.insert(color);
+      if (std::max({qRed(color), qGreen(color), qBlue(color)}) < 6) ++black;
+    }
+  }
+  EXPECT_GT(shades.size(), 500U);
+  EXPECT_LT(black, kWidth * kHeight / 4 / 100);
+}
+
+TEST_F(Fly, ShowsItsFiguresAsBrightTextOnADarkPanel) {
+  ASSERT_FALSE(picture_.isNull());
+  int bright = 0, dark = 0;
+  for (int y = 20; y < 260; ++y) {
+    for (int x = 20; x < 320; ++x) {
+      const int lightness = QColor(picture_.pixel(x, y)).lightness();
+      if (lightness > 225) ++bright;
+      if (lightness < 110) ++dark;
+    }
+  }
+  EXPECT_GT(bright, 1000);
+  EXPECT_GT(dark, 300 * 240 / 2);
+}
+
+TEST_F(Fly, LeavesExactlyTheFiguresThatScriptsReadOn) {
+  const nlohmann::json stats = nlohmann::json::parse(contents(folder_ / "a.json"), nullptr, false);
+  ASSERT_TRUE(stats.is_object());
+  std::set<std::string> keys;
+  for (const auto& item : stats.items()) keys.insert(item.key());
+  EXPECT_EQ(keys, (std::set<std::string>{"frames", "frame_ms", "engine_us", "triangles", "nodes", "bytes"}));
+  EXPECT_GE(stats["frames"].get<int>(), 3);
+  for (const char* key : {"frame_ms", "engine_us"}) {
+    ASSERT_EQ(stats[key].size(), 3U) << key;
+    const double p50 = stats[key]["p50"].get<double>(), p99 = stats[key]["p99"].get<double>();
+    EXPECT_GT(p50, 0.0) << key;
+    EXPECT_GE(p99, p50) << key;
+    EXPECT_GE(stats[key]["max"].get<double>(), p99) << key;
+  }
+  EXPECT_GE(stats["nodes"].get<int>(), 9 * 8);  // of 9 * 9; a column of them may be on its way
+  EXPECT_GT(stats["triangles"].get<int>(), 2 * stats["nodes"].get<int>());
+  EXPECT_GT(stats["bytes"].get<double>(), 12.0 * stats["triangles"].get<double>() / 2.0);
+}
+
+TEST_F(Fly, RefusesAWrongCommandLineInOneSentence) {
+  for (const char* arguments : {"--speed fast",
+                                "--speed -3",
+                                "--speed nan",
+                                "--size 1280",
+                                "--size 0x0",
+                                "--size 1280x720x3",
+                                "--seconds -1",
+                                "--view-level -1",
+                                "--view-level 99",
+                                "--radius 0",
+                                "--radius 65",
+                                "--radius 2.5",
+                                "--view-distance 0",
+                                "--view-distance 1e9",
+                                "--view-distance 500 --radius 3",
+                                "--screenshot ''",
+                                "--stats=",
+                                "--pixel-error 1",
+                                "--generator nothing-of-that-name",
+                                "--world /no/such/file",
+                                "extra"}) {
+    const Run refused = run(arguments);
+    EXPECT_EQ(refused.exitCode, 2) << arguments;
+    EXPECT_EQ(refused.output, "") << arguments;
+    EXPECT_TRUE(refused.errors.starts_with("teren-fly: ")) << arguments << ": " << refused.errors;
+    EXPECT_EQ(std::count(refused.errors.begin(), refused.errors.end(), '\n'), 1) << refused.errors;
+  }
+}
+
+TEST_F(Fly, SaysInOneSentenceThatItCannotOpenAWindow) {
+  for (const char* display : {"''", ":987654"}) {
+    const Run failed = runOn(display, "--seconds 1");
+    EXPECT_EQ(failed.exitCode, 1);
+    EXPECT_TRUE(failed.errors.starts_with("teren-fly: cannot open a window")) << failed.errors;
+    EXPECT_EQ(std::count(failed.errors.begin(), failed.errors.end(), '\n'), 1) << failed.errors;
+  }
+}
+
+TEST_F(Fly, SaysInOneSentenceThatItCannotWriteAFile) {
+  const Run failed = run("--seconds 0 --size 200x100 --radius 1 --screenshot /no/such/folder/a.png");
+  EXPECT_EQ(failed.exitCode, 1);
+  EXPECT_NE(failed.errors.find("/no/such/folder/a.png"), std::string::npos);
+  EXPECT_EQ(std::count(failed.errors.begin(), failed.errors.end(), '\n'), 1) << failed.errors;
+}
+
+TEST_F(Fly, EndsCleanlyWhenInterrupted) {
+  const Run interrupted = runOn(display_->name() + " timeout -s INT 2",
+                                "--size 200x100 --radius 1 --stats " + (folder_ / "b.json").string());
+  EXPECT_EQ(interrupted.exitCode,
+            124);  // timeout's own; a program killed by the signal would not have written
+  EXPECT_EQ(interrupted.errors, "");
+  EXPECT_TRUE(nlohmann::json::parse(contents(folder_ / "b.json"), nullptr, false).is_object());
+}
+
+}  // namespace
+}  // namespace teren
