@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Run {
+struct Outcome {
   int exitCode = -1;
   std::string output, errors;
 };
@@ -52,8 +52,8 @@ class Fly : public testing::Test {
   }
   void SetUp() override { ASSERT_FALSE(display_->name().empty()) << "Xvfb did not start"; }
 
-  static Run run(const std::string& arguments) { return runOn(display_->name(), arguments); }
-  static Run runOn(const std::string& display, const std::string& arguments) {
+  static Outcome run(const std::string& arguments) { return runOn(display_->name(), arguments); }
+  static Outcome runOn(const std::string& display, const std::string& arguments) {
     const fs::path output = folder_ / "output", errors = folder_ / "errors";
     const std::string command =
         "env -u WAYLAND_DISPLAY -u XDG_RUNTIME_DIR LIBGL_ALWAYS_SOFTWARE=1 DISPLAY=" + display +
@@ -81,13 +81,13 @@ class Fly : public testing::Test {
 
   static std::unique_ptr<PrivateDisplay> display_;
   static fs::path folder_;
-  static Run flight_;
+  static Outcome flight_;
   static QImage picture_;
 };
 
 std::unique_ptr<PrivateDisplay> Fly::display_;
 fs::path Fly::folder_;
-Run Fly::flight_;
+Outcome Fly::flight_;
 QImage Fly::picture_;
 
 TEST_F(Fly, EndsByItselfWithoutAWord) {
@@ -182,7 +182,7 @@ TEST_F(Fly, RefusesAWrongCommandLineInOneSentence) {
                                 "--generator nothing-of-that-name",
                                 "--world /no/such/file",
                                 "extra"}) {
-    const Run refused = run(arguments);
+    const Outcome refused = run(arguments);
     EXPECT_EQ(refused.exitCode, 2) << arguments;
     EXPECT_EQ(refused.output, "") << arguments;
     EXPECT_TRUE(refused.errors.starts_with("teren-fly: ")) << arguments << ": " << refused.errors;
@@ -192,7 +192,7 @@ TEST_F(Fly, RefusesAWrongCommandLineInOneSentence) {
 
 TEST_F(Fly, SaysInOneSentenceThatItCannotOpenAWindow) {
   for (const char* display : {"''", ":987654"}) {
-    const Run failed = runOn(display, "--seconds 1");
+    const Outcome failed = runOn(display, "--seconds 1");
     EXPECT_EQ(failed.exitCode, 1);
     EXPECT_TRUE(failed.errors.starts_with("teren-fly: cannot open a window")) << failed.errors;
     EXPECT_EQ(std::count(failed.errors.begin(), failed.errors.end(), '\n'), 1) << failed.errors;
@@ -200,14 +200,14 @@ TEST_F(Fly, SaysInOneSentenceThatItCannotOpenAWindow) {
 }
 
 TEST_F(Fly, SaysInOneSentenceThatItCannotWriteAFile) {
-  const Run failed = run("--seconds 0 --size 200x100 --radius 1 --screenshot /no/such/folder/a.png");
+  const Outcome failed = run("--seconds 0 --size 200x100 --radius 1 --screenshot /no/such/folder/a.png");
   EXPECT_EQ(failed.exitCode, 1);
   EXPECT_NE(failed.errors.find("/no/such/folder/a.png"), std::string::npos);
   EXPECT_EQ(std::count(failed.errors.begin(), failed.errors.end(), '\n'), 1) << failed.errors;
 }
 
 TEST_F(Fly, EndsCleanlyWhenInterrupted) {
-  const Run interrupted = runOn(display_->name() + " timeout -s INT 2",
+  const Outcome interrupted = runOn(display_->name() + " timeout -s INT 2",
                                 "--size 200x100 --radius 1 --stats " + (folder_ / "b.json").string());
   EXPECT_EQ(interrupted.exitCode,
             124);  // timeout's own; a program killed by the signal would not have written
