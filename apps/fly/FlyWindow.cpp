@@ -24,6 +24,7 @@ constexpr double kRadiansPerPixel = 0.005;
 constexpr double kWheelNotch = 120.0;  // in Qt's eighths of a degree
 constexpr std::chrono::milliseconds kBetweenFigures(150);
 constexpr std::chrono::milliseconds kBetweenHiddenFrames(50);
+constexpr std::chrono::milliseconds kBetweenSettlingPictures(250);
 constexpr std::chrono::seconds kSentenceTime(4);
 constexpr std::size_t kFramesShown = 30;  // that the times on the display look back
 
@@ -79,10 +80,13 @@ bool FlyWindow::settle() {
   show();
   area_->show();
   setFocus();
-  flight_.settle([this](std::size_t done, std::size_t wanted) {
+  Clock::time_point nextPicture{};
+  flight_.settle([this, &nextPicture](std::size_t done, std::size_t wanted) {
+    QApplication::processEvents();
+    if (Clock::now() < nextPicture) return !leaving_ && quitAsked == 0;
+    nextPicture = Clock::now() + kBetweenSettlingPictures;
     const std::size_t percent = wanted == 0 ? 100 : 100 * done / wanted;
     display_.setBanner("making the land: " + std::to_string(percent) + " %");
-    QApplication::processEvents();
     updateScene(0.0);
     area_->render();
     return !leaving_ && quitAsked == 0;

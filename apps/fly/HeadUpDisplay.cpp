@@ -22,6 +22,7 @@ constexpr int kPadding = 12;  // between a panel's edge and its text
 constexpr int kGap = 18;      // between the two columns
 
 const QColor kShade(12, 20, 32, 168);
+const QColor kDeepShade(12, 20, 32, 215);  // where much is to be read
 const QColor kEdge(255, 255, 255, 40);
 const QColor kText(245, 248, 252);
 const QColor kLabel(158, 192, 226);
@@ -38,12 +39,12 @@ QFont textFont(int pixels, bool bold = false) {
   return font;
 }
 
-QImage panelImage(QSize size) {
+QImage panelImage(QSize size, const QColor& shade = kShade) {
   QImage image(size, QImage::Format_RGBA8888_Premultiplied);
   image.fill(Qt::transparent);
   QPainter painter(&image);
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.setBrush(kShade);
+  painter.setBrush(shade);
   painter.setPen(kEdge);
   painter.drawRoundedRect(QRectF(0.5, 0.5, size.width() - 1.0, size.height() - 1.0), 7.0, 7.0);
   return image;
@@ -61,7 +62,8 @@ QImage sentenceImage(const QString& sentence, int pixels) {
   return image;
 }
 
-QImage tableImage(const QString& title, const std::vector<Line>& lines, int atLeastWide) {
+QImage tableImage(const QString& title, const std::vector<Line>& lines, const QColor& shade,
+                  int atLeastWide) {
   const QFont font = textFont(kTextPixels), bold = textFont(kTextPixels + 2, true);
   const QFontMetrics metrics(font);
   int left = 0, right = 0;
@@ -72,7 +74,7 @@ QImage tableImage(const QString& title, const std::vector<Line>& lines, int atLe
   const int step = metrics.height() + 2;
   const int top = title.isEmpty() ? kPadding : kPadding + step + 8;
   const int width = std::max(atLeastWide, left + kGap + right + 2 * kPadding);
-  QImage image = panelImage({width, top + step * static_cast<int>(lines.size()) + kPadding});
+  QImage image = panelImage({width, top + step * static_cast<int>(lines.size()) + kPadding}, shade);
   QPainter painter(&image);
   painter.setPen(kText);
   painter.setFont(bold);
@@ -159,7 +161,7 @@ void HeadUpDisplay::setFigures(const FlightFigures& figures) {
   std::vector<Line> lines;
   for (const auto& [what, much] : lines_) lines.push_back({fromView(what), fromView(much)});
   // Never narrower than before, so that the panel does not tremble with its digits.
-  show(figures_, tableImage(QString(), lines, figures_.image.width()));
+  show(figures_, tableImage(QString(), lines, kShade, figures_.image.width()));
   if (hint_.image.isNull()) show(hint_, sentenceImage(QStringLiteral("F1  help"), kTextPixels - 2));
 }
 
@@ -168,7 +170,7 @@ void HeadUpDisplay::toggleHelp() {
   if (!help_.visible || !help_.image.isNull()) return;
   std::vector<Line> lines;
   for (const HelpLine& line : KeyMap::help()) lines.push_back({fromView(line.keys), fromView(line.does)});
-  show(help_, tableImage(QStringLiteral("Keys"), lines, 0));
+  show(help_, tableImage(QStringLiteral("Keys"), lines, kDeepShade, 0));
 }
 
 void HeadUpDisplay::say(const std::string& sentence, Clock::duration duration) {
