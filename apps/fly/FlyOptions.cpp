@@ -47,10 +47,10 @@ FlyCommandLine::FlyCommandLine(CLI::App& application)
     : viewDistance_(application
                         .add_option("--view-distance",
                                     "metres of land to draw in every direction at "
-                                    "least; sets --radius [1536]")
+                                    "least; sets --radius [3072]")
                         ->type_name("M")),
       viewLevel_(
-          application.add_option("--view-level", "level of the land, 0 is finest [2]")->type_name("L")),
+          application.add_option("--view-level", "level of the land, 0 is finest [3]")->type_name("L")),
       radius_(application.add_option("--radius", "nodes to draw in every direction, 1 to 64 [6]")
                   ->type_name("R")),
       speed_(application.add_option("--speed", "at the start, metres per second, 5 to 600 [60]")
@@ -64,7 +64,7 @@ FlyCommandLine::FlyCommandLine(CLI::App& application)
 }
 
 Result<ViewSettings> FlyCommandLine::view(const World& world) const {
-  ViewSettings view;
+  ViewSettings view = FlyOptions{}.view;
   const Result<int> level =
       readWhole(*viewLevel_, std::min(view.level, world.topLevel()), 0, world.topLevel());
   if (!level) return level.error();

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <unistd.h>
@@ -28,9 +29,9 @@
 namespace teren {
 namespace {
 
-// Where the flight begins: in the default world, over a valley with ranges ahead.
-constexpr double kStartEast = 0.0, kStartNorth = 0.0;  // [m]
-constexpr double kStartHeading = 0.0;                  // [rad]
+// Where the flight begins: in the default world over a lake's shore, towards a range with snow.
+constexpr double kStartEast = 3313.0, kStartNorth = 11120.0;        // [m]
+constexpr double kStartHeading = 335.0 * std::numbers::pi / 180.0;  // [rad]
 
 /// Qt ends a program without a usable display by abort(); this ends it with a sentence.
 void exitWhenQtGivesUp(QtMsgType type, const QMessageLogContext&, const QString& message) {
