@@ -68,7 +68,6 @@ FlyWindow::FlyWindow(Flight& flight, const Daylight& light, QSize size)
 }
 
 FlyWindow::~FlyWindow() {
-  area_->setSceneGraph(nullptr);
   delete area_;
 }
 

@@ -1,12 +1,21 @@
 #include "apps/fly/RenderArea.h"
 
 #include <GL/gl.h>
+#include <Inventor/actions/SoGLRenderAction.h>
+#include <Inventor/misc/SoContextHandler.h>
 
 namespace teren {
 
 RenderArea::RenderArea(QWidget* parent) : SoQtRenderArea(parent, "teren", TRUE, TRUE, TRUE) {
   setAutoRedraw(FALSE);
   setTransparencyType(SoGLRenderAction::BLEND);
+}
+
+RenderArea::~RenderArea() {
+  if (!hasNormalGLArea()) return;
+  glLockNormal();
+  SoContextHandler::destructingContext(getGLRenderAction()->getCacheContext());
+  glUnlockNormal();
 }
 
 QSize RenderArea::pixels() const {

@@ -13,6 +13,9 @@ namespace teren {
 class RenderArea : public SoQtRenderArea {
  public:
   explicit RenderArea(QWidget* parent);
+  /// Tells Coin that the GL context goes, so that nodes give back what they hold in it: delete it before
+  /// them.
+  ~RenderArea() override;
 
   /// Called after every drawing of the scene, in the same GL context and before the frame is presented.
   void setOverlay(std::function<void(QSize pixels)> overlay) { overlay_ = std::move(overlay); }
