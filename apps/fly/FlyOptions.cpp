@@ -47,11 +47,11 @@ FlyCommandLine::FlyCommandLine(CLI::App& application)
     : viewDistance_(application
                         .add_option("--view-distance",
                                     "metres of land to draw in every direction at "
-                                    "least; sets --radius [3072]")
+                                    "least; sets --radius [2560]")
                         ->type_name("M")),
       viewLevel_(
           application.add_option("--view-level", "level of the land, 0 is finest [3]")->type_name("L")),
-      radius_(application.add_option("--radius", "nodes to draw in every direction, 1 to 64 [6]")
+      radius_(application.add_option("--radius", "nodes to draw in every direction, 1 to 64 [5]")
                   ->type_name("R")),
       speed_(application.add_option("--speed", "at the start, metres per second, 5 to 600 [60]")
                  ->type_name("V")),

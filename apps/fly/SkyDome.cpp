@@ -31,10 +31,11 @@ SbColor mixed(const SbColor& a, const SbColor& b, float share) {
   return a * (1.0F - share) + b * share;
 }
 
-// How blue the sky is at an elevation: the air one looks through thins out quickly above the horizon.
+// How blue the sky is at an elevation. The haze reaches some degrees up, so that mountains lost in it do not
+// stand out against the sky; above it the air one looks through thins out quickly.
 float clearness(float elevation) {
   const float sine = std::max(0.0F, std::sin(elevation));
-  return 1.0F - std::exp(-3.2F * sine);
+  return 1.0F - std::exp(-2.6F * sine * sine / (sine + 0.16F));
 }
 
 Rings dome(const Daylight& light, const SbVec3f& sun) {

@@ -30,7 +30,7 @@ namespace teren {
 namespace {
 
 // Where the flight begins: in the default world over a lake's shore, towards a range with snow.
-constexpr double kStartEast = 3313.0, kStartNorth = 11120.0;        // [m]
+constexpr double kStartEast = 3040.0, kStartNorth = 11700.0;        // [m]
 constexpr double kStartHeading = 335.0 * std::numbers::pi / 180.0;  // [rad]
 
 /// Qt ends a program without a usable display by abort(); this ends it with a sentence.
