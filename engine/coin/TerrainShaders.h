@@ -77,7 +77,9 @@ void main() {
 
   colour *= (1.0 + 0.35 * fine.g + 0.3 * broad.g) * (vec3(0.40, 0.46, 0.56) + sunlight * ground.z);
   // Below the water nothing is lost in haze but everything in the deep: the water above has the haze.
-  gl_FragColor = vec4(mix(deep, mix(colour, haze, ground.w), exp2(-0.13 * max(depth, 0.0))), 1.0);
+  // Where the view ends the water ends too, and haze covers what is left, deep or not.
+  vec3 seen = mix(deep, mix(colour, haze, ground.w), exp2(-0.13 * max(depth, 0.0)));
+  gl_FragColor = vec4(mix(seen, haze, smoothstep(0.97, 1.0, ground.w)), 1.0);
 }
 )";
 
