@@ -12,18 +12,12 @@
 
 #include "height/Surface.h"
 #include "tests/engine/world/HashNoise.h"
+#include "tests/engine/world/RandomDraws.h"
 #include "tests/engine/world/TestLayer.h"
 #include "tests/engine/world/TestWorld.h"
 
 namespace teren {
 namespace {
-
-double uniform(RandomSequence& random) {
-  return std::ldexp(static_cast<double>(random.nextBits(53)), -53);
-}
-int below(RandomSequence& random, int end) {
-  return static_cast<int>(random.next() % static_cast<unsigned>(end));
-}
 
 // ---- The bound of a whole world, by brute force ----
 

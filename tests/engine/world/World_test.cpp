@@ -15,18 +15,12 @@
 #include "teren/Bake.h"
 #include "teren/Hash.h"
 
+#include "tests/engine/world/RandomDraws.h"
 #include "tests/engine/world/TestWorld.h"
 #include "world/Layer.h"
 
 namespace teren {
 namespace {
-
-double uniform(RandomSequence& random) {
-  return std::ldexp(static_cast<double>(random.nextBits(53)), -53);
-}
-int below(RandomSequence& random, int end) {
-  return static_cast<int>(random.next() % static_cast<unsigned>(end));
-}
 
 LayerDescription noise(double pitch, double deviation, int samples = 65, const std::string& name = "") {
   LayerDescription layer;
