@@ -50,7 +50,7 @@ QString pictureFile() {
 FlyWindow::FlyWindow(Flight& flight, const Daylight& light, QSize size)
     : flight_(flight),
       daylight_(light),
-      scene_(light, flight.aircraft().size(), flight.engine().view().reach(flight.engine().world())),
+      scene_(light, flight.aircraft().size(), flight.engine().options().view.reach(flight.engine().world())),
       area_(new RenderArea(this)) {
   setWindowTitle(QStringLiteral("Teren"));
   auto* layout = new QVBoxLayout(this);

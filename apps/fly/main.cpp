@@ -120,7 +120,7 @@ int run(int argc, char** argv) {
   if (!world) return fail(application, kWrongInput, world.error().message);
   const Result<FlyOptions> options = commandLine.resolve(**world);
   if (!options) return fail(application, kWrongInput, options.error().message);
-  Result<std::unique_ptr<Engine>> engine = Engine::create(*world, options->view);
+  Result<std::unique_ptr<Engine>> engine = Engine::create(*world, {.view = options->view});
   if (!engine) return fail(application, kWrongInput, engine.error().message);
   int quietCount = 1;  // Qt's own options are not ours
   const Result<void> flown = flyInWindow(quietCount, argv, *options, std::move(engine).value());

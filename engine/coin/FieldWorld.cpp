@@ -84,7 +84,7 @@ Result<std::unique_ptr<Engine>> makeEngine(const TerrainFields& fields) {
   if (!world) return world.error();
   const Result<ViewSettings> view = checkView(fields, *world.value());
   if (!view) return view.error();
-  return Engine::create(world.value(), view.value());
+  return Engine::create(world.value(), {.view = view.value()});
 }
 
 }  // namespace teren

@@ -25,6 +25,7 @@ int ViewSettings::radiusFor(double distance, int level, const World& world) noex
 
 namespace {
 
+constexpr int kMostWorkers = 64;
 constexpr std::size_t kBaseMapBytes = std::size_t{64} << 20;
 
 /// A node on its way: its heights first, then, if it is to be drawn, the pieces that join it to the drawn
@@ -86,19 +87,22 @@ class NodeJob {
 }  // namespace
 
 struct Engine::State final : Ground {
-  State(std::shared_ptr<const World> theWorld, ViewSettings theView)
+  State(std::shared_ptr<const World> theWorld, const EngineOptions& theOptions)
       : world(std::move(theWorld)),
-        view(theView),
+        options(theOptions),
+        view(theOptions.view),
         maps(kBaseMapBytes),
         nodes(world->spacing(0), world->intervals()),
         scene(std::make_shared<const Scene>(0, world->spacing(0),
                                             std::vector<std::shared_ptr<const Mesh>>{})) {}
 
   std::shared_ptr<const World> world;
+  EngineOptions options;
   ViewSettings view;
   BaseMapStore maps;
   NodeStore nodes;
   SliceMeter meter;
+  std::size_t rendererBytes = 0, peakBytes = 0;
   std::vector<std::unique_ptr<Object>> objects;
   std::size_t active = 0;
   std::shared_ptr<const Scene> scene;
@@ -129,6 +133,7 @@ struct Engine::State final : Ground {
   void finishJob();
   void publish();
   std::size_t pending() const;
+  std::size_t bytes() const { return maps.bytes() + nodes.bytes() + rendererBytes; }
 };
 
 std::optional<double> Engine::State::drawnHeight(const Position& position) const {
@@ -214,6 +219,7 @@ void Engine::State::work() {
 }
 
 void Engine::State::publish() {
+  peakBytes = std::max(peakBytes, bytes());
   if (nodes.serial() == scene->serial()) return;
   scene = nodes.snapshot();
   sceneTriangles = scene->triangles();
@@ -227,8 +233,10 @@ std::size_t Engine::State::pending() const {
 Engine::Engine(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Engine::~Engine() = default;
 
-Result<std::unique_ptr<Engine>> Engine::create(std::shared_ptr<const World> world, ViewSettings view) {
+Result<std::unique_ptr<Engine>> Engine::create(std::shared_ptr<const World> world,
+                                               const EngineOptions& options) {
   assert(world);
+  const ViewSettings& view = options.view;
   if (view.level < 0 || view.level > world->topLevel()) {
     return Error{"the view's level is " + std::to_string(view.level) + ", expected 0 to " +
                  std::to_string(world->topLevel()) + ", the world's top level"};
@@ -236,14 +244,24 @@ Result<std::unique_ptr<Engine>> Engine::create(std::shared_ptr<const World> worl
   if (view.radius < 1 || view.radius > 64) {
     return Error{"the view's radius is " + std::to_string(view.radius) + " nodes, expected 1 to 64"};
   }
-  return std::unique_ptr<Engine>(new Engine(std::make_unique<State>(std::move(world), view)));
+  if (options.workers < 0 || options.workers > kMostWorkers) {
+    return Error{"the engine's workers are " + std::to_string(options.workers) + ", expected 0 to 64"};
+  }
+  if (options.capBytes < EngineOptions::kLeastCap) {
+    return Error{"the engine's cap is " + std::to_string(options.capBytes) + " bytes, expected at least " +
+                 std::to_string(EngineOptions::kLeastCap)};
+  }
+  return std::unique_ptr<Engine>(new Engine(std::make_unique<State>(std::move(world), options)));
 }
 
 const World& Engine::world() const noexcept {
   return *state_->world;
 }
-const ViewSettings& Engine::view() const noexcept {
-  return state_->view;
+const EngineOptions& Engine::options() const noexcept {
+  return state_->options;
+}
+void Engine::setRendererBytes(std::size_t bytes) noexcept {
+  state_->rendererBytes = bytes;
 }
 
 Object& Engine::add(std::unique_ptr<Object> object) {
@@ -306,7 +324,9 @@ EngineFigures Engine::figures() const noexcept {
   EngineFigures figures;
   figures.nodes = state.nodes.drawnCount();
   figures.triangles = state.sceneTriangles;
-  figures.bytes = state.maps.bytes() + state.nodes.bytes();
+  figures.bytes = state.bytes();
+  figures.peakBytes = state.peakBytes;
+  figures.radius = state.view.radius;
   figures.pending = state.pending();
   figures.slices = state.meter.slices();
   figures.lateSlices = state.meter.lateSlices();

@@ -106,7 +106,7 @@ TEST(SoTerrain, OwnsTheStandardWorldWhereItsFieldsSayNothing) {
   ASSERT_NE(stage.terrain->engine(), nullptr);
   EXPECT_STREQ(stage.terrain->errorText().getString(), "");
   EXPECT_EQ(stage.terrain->engine()->world().seed(), WorldDescription::standard().seed);
-  EXPECT_GE(stage.terrain->engine()->view().reach(stage.terrain->engine()->world()), 1500.0);
+  EXPECT_GE(stage.terrain->engine()->options().view.reach(stage.terrain->engine()->world()), 1500.0);
 }
 
 TEST(SoTerrain, MakesItsWorldFromGeneratorAndParameters) {

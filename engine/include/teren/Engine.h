@@ -29,10 +29,23 @@ struct ViewSettings {
   static int radiusFor(double distance, int level, const World& world) noexcept;
 };
 
+struct EngineOptions {
+  ViewSettings view;
+  /// Threads that make terrain, 0 ... 64. With 0 all work is done in slices on the thread that calls update;
+  /// with more, update only integrates what they have finished. The landscape is the same.
+  int workers = 0;
+  /// Most bytes the engine holds, at least kLeastCap: maps, nodes, meshes, tasks in flight, and what its
+  /// renderer reports. Where the view needs more, its far parts are left out until there is room (law 6).
+  std::size_t capBytes = std::size_t{512} << 20;
+  static constexpr std::size_t kLeastCap = std::size_t{8} << 20;
+};
+
 struct EngineFigures {
   std::size_t nodes = 0;                   ///< in the scene
   std::size_t triangles = 0;               ///< in the scene
-  std::size_t bytes = 0;                   ///< base maps, nodes and meshes held
+  std::size_t bytes = 0;                   ///< held now, of what EngineOptions::capBytes counts
+  std::size_t peakBytes = 0;               ///< the most held so far
+  int radius = 0;                          ///< of the view drawn: less than asked for under the cap
   std::size_t pending = 0;                 ///< nodes wanted and not there yet
   std::uint64_t slices = 0;                ///< begun since the engine was made
   std::uint64_t lateSlices = 0;            ///< that ended beyond the budget
@@ -42,11 +55,12 @@ struct EngineFigures {
 /// One engine per view of a world. All calls from one thread; snapshots may be read by any.
 class Engine {
  public:
-  static Result<std::unique_ptr<Engine>> create(std::shared_ptr<const World> world, ViewSettings view);
+  static Result<std::unique_ptr<Engine>> create(std::shared_ptr<const World> world,
+                                                const EngineOptions& options);
   ~Engine();
 
   const World& world() const noexcept;
-  const ViewSettings& view() const noexcept;
+  const EngineOptions& options() const noexcept;
 
   /// Adds an object; the first becomes active. The reference lives as long as the engine.
   Object& add(std::unique_ptr<Object> object);
@@ -73,6 +87,10 @@ class Engine {
   const Ground& ground() const noexcept;
 
   EngineFigures figures() const noexcept;
+
+  /// Bytes the renderer holds for this engine's scenes (vertex buffers): counted under the cap. Call when
+  /// they change.
+  void setRendererBytes(std::size_t bytes) noexcept;
 
  private:
   struct State;

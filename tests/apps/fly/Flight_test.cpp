@@ -17,7 +17,7 @@ std::unique_ptr<Flight> flightAt(const Position& position, double speed) {
       World::create(WorldDescription::standard(), *PluginRegistry::standard());
   if (!world) return nullptr;
   Result<std::unique_ptr<Engine>> engine =
-      Engine::create(std::move(world).value(), {.level = 2, .radius = 2});
+      Engine::create(std::move(world).value(), {.view = {.level = 2, .radius = 2}});
   if (!engine) return nullptr;
   return std::make_unique<Flight>(std::move(engine).value(),
                                   AircraftStart{.position = position, .heading = 0.3, .speed = speed});

@@ -50,7 +50,7 @@ class Puppet final : public Object {
 
 struct Flight {
   explicit Flight(ViewSettings view = {1, 2}, Position start = {}) : world(smallWorld()) {
-    auto made = Engine::create(world, view);
+    auto made = Engine::create(world, {.view = view});
     EXPECT_TRUE(made.ok());
     engine = std::move(*made);
     puppet = static_cast<Puppet*>(&engine->add(std::make_unique<Puppet>(start)));
@@ -120,7 +120,7 @@ TEST(Engine, NeverPublishesACrackBetweenDrawnNodes) {
     ASSERT_FALSE(twice) << "overlap in step " << step;
     // A crack is an uncovered square whose western and eastern, or southern and northern, neighbours are
     // covered within the two strips of a seam.
-    const std::int64_t stride = std::int64_t{1} << flight.engine->view().level;
+    const std::int64_t stride = std::int64_t{1} << flight.engine->options().view.level;
     for (const auto& [column, row] : squares) {
       for (std::int64_t gap = 1; gap <= 2; ++gap) {
         const Place east{column + (gap + 1) * stride, row}, between{column + gap * stride, row};
@@ -291,8 +291,17 @@ TEST(Engine, RefusesViewsThatMakeNoSense) {
   const auto world = smallWorld();
   for (const ViewSettings view : {ViewSettings{-1, 2}, ViewSettings{world->topLevel() + 1, 2},
                                   ViewSettings{1, 0}, ViewSettings{1, 65}}) {
-    EXPECT_FALSE(Engine::create(world, view).ok()) << view.level << ", " << view.radius;
+    EXPECT_FALSE(Engine::create(world, {.view = view}).ok()) << view.level << ", " << view.radius;
   }
+}
+
+TEST(Engine, RefusesWorkersAndCapsOutOfRange) {
+  const auto world = smallWorld();
+  for (const int workers : {-1, 65})
+    EXPECT_FALSE(Engine::create(world, {.view = {1, 2}, .workers = workers}).ok());
+  const auto tiny = Engine::create(world, {.view = {1, 2}, .capBytes = EngineOptions::kLeastCap - 1});
+  ASSERT_FALSE(tiny.ok());
+  EXPECT_NE(tiny.error().message.find("8388608"), std::string::npos) << tiny.error().message;
 }
 
 TEST(ViewSettings, ReachesAtLeastTheDistanceItsRadiusWasChosenFor) {
