@@ -22,6 +22,12 @@ PieceExtent pieceExtent(Piece piece, int intervals) noexcept {
   return {intervals - 1, intervals - 1, 2, 2};
 }
 
+std::size_t pieceBytes(Piece piece, int intervals) noexcept {
+  const PieceExtent extent = pieceExtent(piece, intervals);
+  return sizeof(Mesh) + static_cast<std::size_t>(extent.columns + 1) *
+                            static_cast<std::size_t>(extent.rows + 1) * sizeof(SurfaceVertex);
+}
+
 std::shared_ptr<const TriangleIndices> GridIndices::get(int columns, int rows) {
   std::shared_ptr<const TriangleIndices>& list = lists_[{columns, rows}];
   if (list) return list;
@@ -35,18 +41,18 @@ std::shared_ptr<const TriangleIndices> GridIndices::get(int columns, int rows) {
       indices->insert(indices->end(), {southWest, southEast, northEast, southWest, northEast, northWest});
     }
   }
+  bytes_ += indices->capacity() * sizeof(std::uint32_t);
   list = std::move(indices);
   return list;
 }
 
-MeshTask::MeshTask(NodeBlock block, Piece piece, double spacing, std::uint64_t id, GridIndices& indices)
+MeshTask::MeshTask(NodeBlock block, Piece piece, double spacing, GridIndices& indices)
     : block_(std::move(block)),
       intervals_(block_.nodes[0]->columns() - 1),
       extent_(pieceExtent(piece, intervals_)),
       spacing_(spacing),
       mesh_(std::make_shared<Mesh>()) {
   const std::int64_t stride = std::int64_t{1} << block_.key.level;
-  mesh_->id = id;
   mesh_->level = block_.key.level;
   mesh_->originColumn = (block_.key.i * intervals_ + extent_.firstColumn) * stride;
   mesh_->originRow = (block_.key.j * intervals_ + extent_.firstRow) * stride;
@@ -55,11 +61,13 @@ MeshTask::MeshTask(NodeBlock block, Piece piece, double spacing, std::uint64_t i
   mesh_->minHeight = std::numeric_limits<float>::infinity();
   mesh_->maxHeight = -std::numeric_limits<float>::infinity();
   mesh_->indices = indices.get(extent_.columns, extent_.rows);
-  mesh_->vertices.reserve(static_cast<std::size_t>(extent_.columns + 1) *
-                          static_cast<std::size_t>(extent_.rows + 1));
 }
 
 bool MeshTask::step(const Slice& slice) {
+  if (nextRow_ == 0) {
+    mesh_->vertices.reserve(static_cast<std::size_t>(extent_.columns + 1) *
+                            static_cast<std::size_t>(extent_.rows + 1));
+  }
   while (nextRow_ <= extent_.rows) {
     buildRow(nextRow_++);
     if (slice.over()) break;

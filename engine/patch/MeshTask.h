@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -39,13 +40,17 @@ struct PieceExtent {
 };
 /// `intervals` >= 2 is n.
 PieceExtent pieceExtent(Piece piece, int intervals) noexcept;
+/// Bytes of the mesh of such a piece.
+std::size_t pieceBytes(Piece piece, int intervals) noexcept;
 
 /// Index lists of rectangles, made once per shape. Not thread-safe.
 class GridIndices {
  public:
   std::shared_ptr<const TriangleIndices> get(int columns, int rows);
+  std::size_t bytes() const noexcept { return bytes_; }
 
  private:
+  std::size_t bytes_ = 0;
   std::map<std::pair<int, int>, std::shared_ptr<const TriangleIndices>> lists_;
 };
 
@@ -53,12 +58,13 @@ class GridIndices {
 /// over them, so neighbouring pieces - and one big monolithic map - have equal bits at shared vertices.
 class MeshTask final : public SlicedTask {
  public:
-  /// `spacing` [m] of the block's level; `id` of the mesh. A piece of no squares gives an empty mesh.
-  MeshTask(NodeBlock block, Piece piece, double spacing, std::uint64_t id, GridIndices& indices);
+  /// `spacing` [m] of the block's level. A piece of no squares gives an empty mesh. `indices` is used by the
+  /// constructor alone, so that steps may run on any thread.
+  MeshTask(NodeBlock block, Piece piece, double spacing, GridIndices& indices);
   bool step(const Slice& slice) override;
 
-  /// Complete once step has returned true.
-  std::shared_ptr<const Mesh> result() const { return mesh_; }
+  /// Complete, but for its id, once step has returned true.
+  std::shared_ptr<Mesh> takeResult() noexcept { return std::move(mesh_); }
 
  private:
   float heightAt(int column, int row) const;

@@ -1,5 +1,6 @@
 #include "patch/NodeTask.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -12,6 +13,19 @@ NodeTask::NodeTask(const World& world, const NodeKey& key, BaseMapStore& store)
       heights_(world.intervals() + 1, world.intervals() + 1),
       sums_(heights_.samples().size(), 0.0) {
   assert(key.level >= 0 && key.level <= world.topLevel());
+}
+
+std::size_t NodeTask::mostBytes(const World& world, int level) noexcept {
+  std::size_t maps = 0;
+  for (const Layer& layer : world.layers()) {
+    if (level > layer.cutLevel()) continue;
+    const std::size_t cells = std::size_t{1} << std::max(0, level - layer.pitchShift());
+    const auto side = static_cast<std::size_t>(layer.mapSamples(layer.mapLevel(level)));
+    const std::size_t bytes = side * side * sizeof(float) + sizeof(HeightMap);
+    maps = std::max(maps, ((cells + 1) * (cells + 1) + 1) * bytes);
+  }
+  const auto side = static_cast<std::size_t>(world.intervals() + 1);
+  return maps + side * side * (sizeof(float) + sizeof(double)) + sizeof(NodeTask);
 }
 
 bool NodeTask::step(const Slice& slice) {

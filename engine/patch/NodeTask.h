@@ -1,6 +1,7 @@
 // The making of a node's heights: the base maps it needs, then the blended sum of the layers.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "teren/HeightMap.h"
@@ -21,6 +22,10 @@ class NodeTask final : public SlicedTask {
  public:
   NodeTask(const World& world, const NodeKey& key, BaseMapStore& store);
   bool step(const Slice& slice) override;
+
+  /// About the most bytes such a task holds at once, the base maps of the layer it is at included (they are
+  /// mostly the store's too); a plugin's own scratch is taken to be as large as one map.
+  static std::size_t mostBytes(const World& world, int level) noexcept;
 
   const NodeKey& key() const noexcept { return key_; }
   /// Complete once step has returned true.

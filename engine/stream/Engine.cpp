@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <unordered_set>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "patch/NodeTask.h"
-#include "schedule/SliceMeter.h"
-#include "stream/NodeStore.h"
-#include "stream/View.h"
-#include "world/BaseMap.h"
+#include "stream/Streamer.h"
 
 namespace teren {
 
@@ -26,63 +23,29 @@ int ViewSettings::radiusFor(double distance, int level, const World& world) noex
 namespace {
 
 constexpr int kMostWorkers = 64;
-constexpr std::size_t kBaseMapBytes = std::size_t{64} << 20;
+constexpr int kMostRadius = 64;
 
-/// A node on its way: its heights first, then, if it is to be drawn, the pieces that join it to the drawn
-/// set.
-class NodeJob {
- public:
-  NodeJob(const World& world, const NodeKey& key, BaseMapStore& maps) : key_(key) {
-    heights_ = std::make_unique<NodeTask>(world, key, maps);
+Result<void> check(const EngineOptions& options, const World& world) {
+  const auto outside = [](const std::string& what, auto value, const std::string& expected) {
+    return Error{what + " is " + std::to_string(value) + ", expected " + expected};
+  };
+  if (options.view.level < 0 || options.view.level > world.topLevel()) {
+    return outside("the view's level", options.view.level,
+                   "0 to " + std::to_string(world.topLevel()) + ", the world's top level");
   }
-  /// For a node whose heights are held already.
-  explicit NodeJob(const NodeKey& key) : key_(key) {}
-
-  const NodeKey& key() const noexcept { return key_; }
-
-  /// The next task to step, or nullptr when the job is done. `drawable`: its pieces are wanted too.
-  SlicedTask* task(NodeStore& nodes, bool drawable) {
-    if (heights_) return heights_.get();
-    if (!drawable) return nullptr;
-    if (!begun_) {
-      wanted_ = nodes.piecesToDraw(key_);
-      begun_ = true;
-    }
-    if (built_.size() == wanted_.size()) return nullptr;
-    if (!piece_) piece_ = nodes.makePiece(wanted_[built_.size()]);
-    return piece_.get();
+  if (options.view.radius < 1 || options.view.radius > kMostRadius) {
+    return outside("the view's radius", options.view.radius, "1 to 64 nodes");
   }
-
-  /// The task just given out is done.
-  void finishTask(NodeStore& nodes) {
-    if (heights_) {
-      nodes.insert(key_, std::make_shared<const HeightMap>(heights_->takeHeights()));
-      heights_.reset();
-      return;
-    }
-    built_.emplace_back(wanted_[built_.size()], piece_->result());
-    piece_.reset();
+  if (options.workers < 0 || options.workers > kMostWorkers) {
+    return outside("the engine's number of workers", options.workers, "0 to 64");
   }
-
-  /// The drawn set has changed: pieces are chosen anew.
-  void restartPieces() {
-    begun_ = false;
-    wanted_.clear();
-    built_.clear();
-    piece_.reset();
+  const std::size_t least = std::max(EngineOptions::kLeastCap, Streamer::leastCap(world, options));
+  if (options.capBytes < least) {
+    return outside("the engine's cap", options.capBytes,
+                   "at least " + std::to_string(least) + " bytes for this world and view");
   }
-
-  /// Once task() has returned nullptr for a drawable node.
-  void draw(NodeStore& nodes) const { nodes.draw(key_, built_); }
-
- private:
-  NodeKey key_;
-  std::unique_ptr<NodeTask> heights_;
-  bool begun_ = false;
-  std::vector<PieceName> wanted_;
-  std::vector<std::pair<PieceName, std::shared_ptr<const Mesh>>> built_;
-  std::unique_ptr<MeshTask> piece_;
-};
+  return {};
+}
 
 }  // namespace
 
@@ -90,144 +53,52 @@ struct Engine::State final : Ground {
   State(std::shared_ptr<const World> theWorld, const EngineOptions& theOptions)
       : world(std::move(theWorld)),
         options(theOptions),
-        view(theOptions.view),
-        maps(kBaseMapBytes),
-        nodes(world->spacing(0), world->intervals()),
+        streamer(*world, options),
         scene(std::make_shared<const Scene>(0, world->spacing(0),
                                             std::vector<std::shared_ptr<const Mesh>>{})) {}
 
   std::shared_ptr<const World> world;
   EngineOptions options;
-  ViewSettings view;
-  BaseMapStore maps;
-  NodeStore nodes;
-  SliceMeter meter;
-  std::size_t rendererBytes = 0, peakBytes = 0;
+  Streamer streamer;
   std::vector<std::unique_ptr<Object>> objects;
   std::size_t active = 0;
+  std::vector<Motion> motions;
   std::shared_ptr<const Scene> scene;
   std::size_t sceneTriangles = 0;
   std::chrono::nanoseconds lastUpdate{0};
-
-  std::optional<NodeKey> viewCentre;  // the view's node under the active object
-  std::vector<NodeKey> groundWanted;  // level-0 nodes under all objects
-  std::vector<NodeKey> wanted;        // most urgent first; those not there yet are worked at in this order
-  std::size_t nextWanted = 0;
-  std::unique_ptr<NodeJob> job;
 
   // Ground
   std::optional<double> height(const Position& position) const override;
   double pitch() const noexcept override { return world->pitch(); }
   std::optional<double> drawnHeight(const Position& position) const;
 
-  bool isThere(const NodeKey& key, bool drawable) const {
-    return drawable ? nodes.isDrawn(key) : nodes.heights(key) != nullptr;
-  }
-  /// Nodes of the view's level are drawn; ground under objects is only kept (unless the view is of level 0).
-  bool isDrawable(const NodeKey& key) const { return viewCentre && mayStay(key, *viewCentre, view); }
-  /// Whether what is wanted has changed.
-  bool chooseNodes();
-  void dropNodes();
-  bool startJob();
-  void work();
-  void finishJob();
+  void choose();
   void publish();
-  std::size_t pending() const;
-  std::size_t bytes() const { return maps.bytes() + nodes.bytes() + rendererBytes; }
 };
 
 std::optional<double> Engine::State::drawnHeight(const Position& position) const {
-  return nodes.isDrawn(nodeAt(position, view.level)) ? nodes.height(position, view.level) : std::nullopt;
+  const int level = options.view.level;
+  const NodeStore& nodes = streamer.nodes();
+  return nodes.isDrawn(nodeAt(position, level)) ? nodes.height(position, level) : std::nullopt;
 }
 
 std::optional<double> Engine::State::height(const Position& position) const {
   const std::optional<double> drawn = drawnHeight(position);
-  const std::optional<double> finest = nodes.height(position, 0);
+  const std::optional<double> finest = streamer.nodes().height(position, 0);
   if (drawn && finest) return std::max(*drawn, *finest);
   return drawn ? drawn : finest;
 }
 
-bool Engine::State::chooseNodes() {
-  if (objects.empty()) return false;
-  std::vector<NodeKey> ground;
-  for (const auto& object : objects) {
-    const std::vector<NodeKey> under = groundNodes(object->motion(), *world);
-    ground.insert(ground.end(), under.begin(), under.end());
-  }
-  const Position eye = objects[active]->motion().position;
-  const NodeKey centre = nodeAt(eye, view.level);
-  if (viewCentre == centre && groundWanted == ground) return false;
-  viewCentre = centre;
-  groundWanted = ground;
-  wanted.clear();
-  nextWanted = 0;
-  std::unordered_set<NodeKey, NodeKeyHash> seen;
-  const auto want = [&](const std::vector<NodeKey>& keys) {
-    for (const NodeKey& key : keys) {
-      if (seen.insert(key).second) wanted.push_back(key);
-    }
-  };
-  want(ground);
-  want(viewNodes(eye, view, *world));
-  return true;
-}
-
-void Engine::State::dropNodes() {
-  const std::uint64_t before = nodes.serial();
-  const std::unordered_set<NodeKey, NodeKeyHash> keep(wanted.begin(), wanted.end());
-  for (const NodeKey& key : nodes.nodes()) {
-    if (isDrawable(key)) continue;
-    if (keep.contains(key)) {
-      nodes.undraw(key);  // ground under an object beyond the view
-    } else {
-      nodes.erase(key);
-    }
-  }
-  if (!job) return;
-  if (!keep.contains(job->key())) {
-    job.reset();
-  } else if (nodes.serial() != before) {
-    job->restartPieces();
-  }
-}
-
-bool Engine::State::startJob() {
-  if (job) return true;
-  for (; nextWanted < wanted.size(); ++nextWanted) {
-    const NodeKey& key = wanted[nextWanted];
-    if (isThere(key, isDrawable(key))) continue;
-    job = nodes.heights(key) ? std::make_unique<NodeJob>(key) : std::make_unique<NodeJob>(*world, key, maps);
-    return true;
-  }
-  return false;
-}
-
-void Engine::State::finishJob() {
-  if (isDrawable(job->key())) job->draw(nodes);
-  job.reset();
-}
-
-void Engine::State::work() {
-  while (meter.mayStart() && startJob()) {
-    SlicedTask* task = job->task(nodes, isDrawable(job->key()));
-    if (!task) {
-      finishJob();
-    } else if (meter.step(*task)) {
-      job->finishTask(nodes);
-    }
-  }
+void Engine::State::choose() {
+  motions.clear();
+  for (const auto& object : objects) motions.push_back(object->motion());
+  streamer.choose(motions, active);
 }
 
 void Engine::State::publish() {
-  peakBytes = std::max(peakBytes, bytes());
-  if (nodes.serial() == scene->serial()) return;
-  scene = nodes.snapshot();
+  if (streamer.nodes().serial() == scene->serial()) return;
+  scene = streamer.nodes().snapshot();
   sceneTriangles = scene->triangles();
-}
-
-std::size_t Engine::State::pending() const {
-  return static_cast<std::size_t>(std::count_if(
-      wanted.begin(), wanted.end(), [&](const NodeKey& key) { return !isThere(key, isDrawable(key)); }));
 }
 
 Engine::Engine(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -236,21 +107,7 @@ Engine::~Engine() = default;
 Result<std::unique_ptr<Engine>> Engine::create(std::shared_ptr<const World> world,
                                                const EngineOptions& options) {
   assert(world);
-  const ViewSettings& view = options.view;
-  if (view.level < 0 || view.level > world->topLevel()) {
-    return Error{"the view's level is " + std::to_string(view.level) + ", expected 0 to " +
-                 std::to_string(world->topLevel()) + ", the world's top level"};
-  }
-  if (view.radius < 1 || view.radius > 64) {
-    return Error{"the view's radius is " + std::to_string(view.radius) + " nodes, expected 1 to 64"};
-  }
-  if (options.workers < 0 || options.workers > kMostWorkers) {
-    return Error{"the engine's workers are " + std::to_string(options.workers) + ", expected 0 to 64"};
-  }
-  if (options.capBytes < EngineOptions::kLeastCap) {
-    return Error{"the engine's cap is " + std::to_string(options.capBytes) + " bytes, expected at least " +
-                 std::to_string(EngineOptions::kLeastCap)};
-  }
+  if (const Result<void> checked = check(options, *world); !checked) return checked.error();
   return std::unique_ptr<Engine>(new Engine(std::make_unique<State>(std::move(world), options)));
 }
 
@@ -261,7 +118,7 @@ const EngineOptions& Engine::options() const noexcept {
   return state_->options;
 }
 void Engine::setRendererBytes(std::size_t bytes) noexcept {
-  state_->rendererBytes = bytes;
+  state_->streamer.setRendererBytes(bytes);
 }
 
 Object& Engine::add(std::unique_ptr<Object> object) {
@@ -288,9 +145,8 @@ void Engine::update(double dt, std::chrono::nanoseconds budget) {
   const Slice::Clock::time_point start = Slice::Clock::now();
   State& state = *state_;
   for (const auto& object : state.objects) object->update(dt, state);
-  state.meter.beginFrame(start + budget);
-  if (state.chooseNodes()) state.dropNodes();
-  state.work();
+  state.choose();
+  state.streamer.work(start + budget);
   state.publish();
   state.lastUpdate = Slice::Clock::now() - start;
 }
@@ -298,14 +154,17 @@ void Engine::update(double dt, std::chrono::nanoseconds budget) {
 void Engine::settle(const std::function<bool(std::size_t, std::size_t)>& progress) {
   constexpr std::chrono::milliseconds kBetweenReports(50);
   State& state = *state_;
-  for (;;) {
-    state.meter.beginFrame(Slice::Clock::now() + kBetweenReports);
-    if (state.chooseNodes()) state.dropNodes();
-    state.work();
+  Streamer& streamer = state.streamer;
+  for (bool settled = false; !settled;) {
+    const Slice::Clock::time_point report = Slice::Clock::now() + kBetweenReports;
+    do {
+      state.choose();
+      streamer.work(report);
+      settled = streamer.isSettled();
+      if (!settled) streamer.wait(kBetweenReports);
+    } while (!settled && Slice::Clock::now() < report);
     state.publish();
-    const std::size_t left = state.pending();
-    if (progress && !progress(state.wanted.size() - left, state.wanted.size())) return;
-    if (left == 0) return;
+    if (progress && !progress(streamer.wanted() - streamer.missing(), streamer.wanted())) return;
   }
 }
 
@@ -321,15 +180,16 @@ const Ground& Engine::ground() const noexcept {
 
 EngineFigures Engine::figures() const noexcept {
   const State& state = *state_;
+  const Streamer& streamer = state.streamer;
   EngineFigures figures;
-  figures.nodes = state.nodes.drawnCount();
+  figures.nodes = streamer.nodes().drawnCount();
   figures.triangles = state.sceneTriangles;
-  figures.bytes = state.bytes();
-  figures.peakBytes = state.peakBytes;
-  figures.radius = state.view.radius;
-  figures.pending = state.pending();
-  figures.slices = state.meter.slices();
-  figures.lateSlices = state.meter.lateSlices();
+  figures.bytes = streamer.bytes();
+  figures.peakBytes = std::max(streamer.peakBytes(), figures.bytes);
+  figures.radius = streamer.plan().radius;
+  figures.pending = streamer.missing();
+  figures.slices = streamer.meter().slices();
+  figures.lateSlices = streamer.meter().lateSlices();
   figures.lastUpdate = state.lastUpdate;
   return figures;
 }

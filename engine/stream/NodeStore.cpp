@@ -8,6 +8,15 @@
 
 namespace teren {
 
+namespace {
+
+// The containers' own nodes and the blocks that count references, as allocated (estimated).
+constexpr std::size_t kBytesPerDrawnNode = 64;
+constexpr std::size_t kBytesPerPiece = 224;     // in two maps and a scene
+constexpr std::size_t kTreeBytesPerNode = 160;  // leaf, control block, its share of the branches
+
+}  // namespace
+
 std::vector<NodeKey> nodesOf(const PieceName& name) {
   const NodeKey& key = name.key;
   switch (name.piece) {
@@ -74,12 +83,13 @@ std::vector<NodeKey> NodeStore::nodes() const {
   return keys;
 }
 
-std::vector<PieceName> NodeStore::piecesToDraw(const NodeKey& node) const {
+std::vector<PieceName> NodeStore::piecesToDraw(const NodeKey& node, const NodeSet& before) const {
   std::vector<PieceName> wanted;
   for (const PieceName& name : piecesOf(node)) {
     const std::vector<NodeKey> nodes = nodesOf(name);
-    const bool complete = std::all_of(
-        nodes.begin(), nodes.end(), [&](const NodeKey& key) { return key == node || drawn_.contains(key); });
+    const bool complete = std::all_of(nodes.begin(), nodes.end(), [&](const NodeKey& key) {
+      return key == node || drawn_.contains(key) || before.contains(key);
+    });
     if (complete) wanted.push_back(name);
   }
   return wanted;
@@ -93,20 +103,24 @@ std::unique_ptr<MeshTask> NodeStore::makePiece(const PieceName& name) {
     assert(block.nodes[place]);
   }
   const double spacing = spacing_ * static_cast<double>(std::int64_t{1} << name.key.level);
-  return std::make_unique<MeshTask>(std::move(block), name.piece, spacing, nextId_++, indices_);
+  return std::make_unique<MeshTask>(std::move(block), name.piece, spacing, indices_);
 }
 
-void NodeStore::draw(const NodeKey& node,
-                     const std::vector<std::pair<PieceName, std::shared_ptr<const Mesh>>>& pieces) {
-  assert(!drawn_.contains(node) && pieces.size() == piecesToDraw(node).size());
+bool NodeStore::draw(const NodeKey& node, std::span<const BuiltPiece> pieces) {
+  assert(!drawn_.contains(node) && heights(node));
+  const std::vector<PieceName> wanted = piecesToDraw(node);
+  const auto isFor = [](const BuiltPiece& built, const PieceName& name) { return built.name == name; };
+  if (!std::equal(pieces.begin(), pieces.end(), wanted.begin(), wanted.end(), isFor)) return false;
   drawn_.insert(node);
-  for (const auto& [name, mesh] : pieces) {
-    assert(!pieces_.contains(name));
-    pieces_.emplace(name, mesh->id);
-    meshes_.emplace(mesh->id, mesh);
-    meshBytes_ += mesh->bytes();
+  for (const BuiltPiece& built : pieces) {
+    assert(!pieces_.contains(built.name));
+    built.mesh->id = nextId_++;
+    pieces_.emplace(built.name, built.mesh->id);
+    meshes_.emplace_hint(meshes_.end(), built.mesh->id, built.mesh);
+    meshBytes_ += built.mesh->bytes();
   }
   ++serial_;
+  return true;
 }
 
 std::optional<double> NodeStore::height(const Position& position, int level) const {
@@ -130,7 +144,19 @@ std::shared_ptr<const Scene> NodeStore::snapshot() const {
 }
 
 std::size_t NodeStore::bytes() const noexcept {
-  return heightBytes_ + meshBytes_ + tree_.bytes();
+  return heightBytes_ + meshBytes_ + tree_.bytes() + indices_.bytes() + drawn_.size() * kBytesPerDrawnNode +
+         pieces_.size() * kBytesPerPiece;
+}
+
+std::size_t NodeStore::heldBytes() const noexcept {
+  const auto side = static_cast<std::size_t>(intervals_ + 1);
+  return side * side * sizeof(float) + sizeof(HeightMap) + kTreeBytesPerNode;
+}
+
+std::size_t NodeStore::piecesBytes() const noexcept {
+  return pieceBytes(Piece::interior, intervals_) + pieceBytes(Piece::eastSeam, intervals_) +
+         pieceBytes(Piece::northSeam, intervals_) + pieceBytes(Piece::cornerPiece, intervals_) +
+         kBytesPerDrawnNode + 4 * kBytesPerPiece;
 }
 
 }  // namespace teren

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -39,6 +40,14 @@ std::vector<NodeKey> nodesOf(const PieceName& name);
 /// The nine pieces a node takes part in: its interior, four seams, four corner pieces.
 std::array<PieceName, 9> piecesOf(const NodeKey& node);
 
+/// A piece on its way to the drawn set, which gives its mesh an id.
+struct BuiltPiece {
+  PieceName name;
+  std::shared_ptr<Mesh> mesh;
+};
+
+using NodeSet = std::unordered_set<NodeKey, NodeKeyHash>;
+
 /// Not thread-safe.
 class NodeStore {
  public:
@@ -56,13 +65,13 @@ class NodeStore {
   bool isDrawn(const NodeKey& key) const { return drawn_.contains(key); }
   std::size_t drawnCount() const noexcept { return drawn_.size(); }
   /// The pieces that must be there before `node` may be drawn: its own, and the seams and corner pieces all
-  /// of whose other nodes are drawn already.
-  std::vector<PieceName> piecesToDraw(const NodeKey& node) const;
+  /// of whose other nodes are drawn already, or will be before it: `before`.
+  std::vector<PieceName> piecesToDraw(const NodeKey& node, const NodeSet& before = {}) const;
   /// A task that builds a piece; its nodes must be held.
   std::unique_ptr<MeshTask> makePiece(const PieceName& name);
-  /// Draws `node` with all its pieces, at once. They must be exactly piecesToDraw(node) (assert).
-  void draw(const NodeKey& node,
-            const std::vector<std::pair<PieceName, std::shared_ptr<const Mesh>>>& pieces);
+  /// Draws `node`, which is held and not drawn, with all its pieces, at once. False, and nothing happens,
+  /// where they are not exactly piecesToDraw(node): the drawn set has changed since they were chosen.
+  bool draw(const NodeKey& node, std::span<const BuiltPiece> pieces);
 
   /// [m] The triangles of the node of this level at a position; empty where it is not held.
   std::optional<double> height(const Position& position, int level) const;
@@ -70,14 +79,21 @@ class NodeStore {
   /// Grows with every change of the drawn set.
   std::uint64_t serial() const noexcept { return serial_; }
   std::shared_ptr<const Scene> snapshot() const;
+  /// Of everything held, the store's own bookkeeping included (estimated).
   std::size_t bytes() const noexcept;
+  std::size_t meshBytes() const noexcept { return meshBytes_; }
+  /// What a node adds to bytes() at most: its heights alone, or drawn, with all its pieces.
+  std::size_t heldBytes() const noexcept;
+  std::size_t drawnBytes() const noexcept { return heldBytes() + piecesBytes(); }
+  /// Of its pieces: an interior, two seams, a corner piece.
+  std::size_t piecesBytes() const noexcept;
 
  private:
   double spacing_;
   int intervals_;
   PatchTree<NodeHeights> tree_;
   std::size_t heightBytes_ = 0, meshBytes_ = 0;
-  std::unordered_set<NodeKey, NodeKeyHash> drawn_;
+  NodeSet drawn_;
   std::unordered_map<PieceName, std::uint64_t, PieceNameHash> pieces_;  // to mesh ids
   std::map<std::uint64_t, std::shared_ptr<const Mesh>> meshes_;         // by id
   GridIndices indices_;

@@ -42,9 +42,9 @@ std::vector<NodeKey> viewNodes(const Position& position, const ViewSettings& vie
   return nodes;
 }
 
-bool mayStay(const NodeKey& key, const NodeKey& centre, const ViewSettings& view) noexcept {
-  return key.level == view.level && std::abs(key.i - centre.i) <= view.radius + 1 &&
-         std::abs(key.j - centre.j) <= view.radius + 1;
+bool mayStay(const NodeKey& key, const NodeKey& centre, const ViewSettings& view, int margin) noexcept {
+  const int most = view.radius + margin;
+  return key.level == view.level && std::abs(key.i - centre.i) <= most && std::abs(key.j - centre.j) <= most;
 }
 
 std::vector<NodeKey> groundNodes(const Motion& motion, const World& world) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "teren/Hash.h"
 #include "teren/Parameter.h"
@@ -82,16 +83,34 @@ BaseMap BaseMapStore::find(const BaseMapKey& key) {
 }
 
 void BaseMapStore::insert(const BaseMapKey& key, BaseMap map) {
+  std::vector<BaseMap> dropped;
   const std::lock_guard lock(mutex_);
   if (index_.contains(key)) return;  // made twice at once: both have the same bits
   entries_.push_front({key, std::move(map)});
   index_.emplace(key, entries_.begin());
-  bytes_ += cost(entries_.front());
-  while (bytes_ > capacity_ && entries_.size() > 1) {
-    bytes_ -= cost(entries_.back());
-    index_.erase(entries_.back().key);
-    entries_.pop_back();
-  }
+  bytes_ += cost(entries_.front().map);
+  while (BaseMap oldest = takeOldest()) dropped.push_back(std::move(oldest));
+}
+
+BaseMap BaseMapStore::takeOldest() {
+  if (bytes_ <= capacity_ || entries_.size() < 2) return nullptr;
+  BaseMap oldest = std::move(entries_.back().map);
+  bytes_ -= cost(oldest);
+  index_.erase(entries_.back().key);
+  entries_.pop_back();
+  return oldest;
+}
+
+void BaseMapStore::setCapacity(std::size_t capacity) {
+  const std::lock_guard lock(mutex_);
+  capacity_ = capacity;
+}
+
+bool BaseMapStore::dropOldest() {
+  BaseMap dropped;
+  const std::lock_guard lock(mutex_);
+  dropped = takeOldest();
+  return dropped != nullptr;
 }
 
 std::size_t BaseMapStore::bytes() const {
@@ -99,9 +118,9 @@ std::size_t BaseMapStore::bytes() const {
   return bytes_;
 }
 
-std::size_t BaseMapStore::cost(const Entry& entry) noexcept {
+std::size_t BaseMapStore::cost(const BaseMap& map) noexcept {
   // The list's and the index's own nodes and the map's control block come to about 160 bytes.
-  return entry.map->bytes() + sizeof(HeightMap) + sizeof(Entry) + 160;
+  return map->bytes() + sizeof(HeightMap) + sizeof(Entry) + 160;
 }
 
 }  // namespace teren

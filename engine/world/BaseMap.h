@@ -58,7 +58,8 @@ class BaseMapTask final : public SlicedTask {
 };
 
 /// Finished base maps, the least recently used dropped first when more than `capacity` bytes are held (they
-/// can be made again, to the same bits). Thread-safe; what a caller holds stays alive beyond its dropping.
+/// can be made again, to the same bits); one is always kept. Thread-safe; what a caller holds stays alive
+/// beyond its dropping.
 class BaseMapStore {
  public:
   explicit BaseMapStore(std::size_t capacity) : capacity_(capacity) {}
@@ -67,12 +68,19 @@ class BaseMapStore {
   void insert(const BaseMapKey& key, BaseMap map);
   std::size_t bytes() const;
 
+  /// Maps beyond a new, lower capacity go when the next is inserted, or one by one with dropOldest.
+  void setCapacity(std::size_t capacity);
+  /// Drops the least recently used map if more than the capacity is held. False: nothing was to be dropped.
+  bool dropOldest();
+
  private:
   struct Entry {
     BaseMapKey key;
     BaseMap map;
   };
-  static std::size_t cost(const Entry& entry) noexcept;
+  static std::size_t cost(const BaseMap& map) noexcept;
+  /// Takes the oldest out, for the caller to destroy once the lock is released; null: all fits.
+  BaseMap takeOldest();
 
   mutable std::mutex mutex_;
   std::size_t capacity_;

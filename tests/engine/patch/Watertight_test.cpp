@@ -62,14 +62,14 @@ class BlockSurface {
     while (!task.step(Slice::unlimited())) {
     }
     store_.insert(key, std::make_shared<const HeightMap>(task.takeHeights()));
-    std::vector<std::pair<PieceName, std::shared_ptr<const Mesh>>> pieces;
+    std::vector<BuiltPiece> pieces;
     for (const PieceName& name : store_.piecesToDraw(key)) {
       const auto piece = store_.makePiece(name);
       while (!piece->step(Slice::unlimited())) {
       }
-      pieces.emplace_back(name, piece->result());
+      pieces.push_back({name, piece->takeResult()});
     }
-    store_.draw(key, pieces);
+    EXPECT_TRUE(store_.draw(key, pieces));
   }
   const World& world_;
   NodeStore store_;

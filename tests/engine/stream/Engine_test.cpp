@@ -49,8 +49,8 @@ class Puppet final : public Object {
 };
 
 struct Flight {
-  explicit Flight(ViewSettings view = {1, 2}, Position start = {}) : world(smallWorld()) {
-    auto made = Engine::create(world, {.view = view});
+  explicit Flight(int workers, ViewSettings view = {1, 2}, Position start = {}) : world(smallWorld()) {
+    auto made = Engine::create(world, {.view = view, .workers = workers});
     EXPECT_TRUE(made.ok());
     engine = std::move(*made);
     puppet = static_cast<Puppet*>(&engine->add(std::make_unique<Puppet>(start)));
@@ -59,6 +59,10 @@ struct Flight {
   std::unique_ptr<Engine> engine;
   Puppet* puppet;
 };
+
+/// Every law of the engine holds with work in slices on the caller's thread as with workers.
+class EngineWithWorkers : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Workers, EngineWithWorkers, testing::Values(0, 1, 3));
 
 using Place = std::pair<std::int64_t, std::int64_t>;
 
@@ -84,8 +88,8 @@ std::set<Place> coveredSquares(const Scene& scene, bool& twice) {
   return squares;
 }
 
-TEST(Engine, SettlesToAViewWithoutHoles) {
-  Flight flight;
+TEST_P(EngineWithWorkers, SettlesToAViewWithoutHoles) {
+  Flight flight(GetParam());
   flight.engine->settle();
   const Scene& scene = *flight.engine->scene();
   EXPECT_EQ(flight.engine->figures().pending, 0U);
@@ -99,8 +103,8 @@ TEST(Engine, SettlesToAViewWithoutHoles) {
   EXPECT_EQ(flight.engine->figures().triangles, squares.size() * 2);
 }
 
-TEST(Engine, NeverPublishesACrackBetweenDrawnNodes) {
-  Flight flight;
+TEST_P(EngineWithWorkers, NeverPublishesACrackBetweenDrawnNodes) {
+  Flight flight(GetParam());
   flight.engine->settle();
   std::uint64_t serial = 0;
   int published = 0;
@@ -133,9 +137,9 @@ TEST(Engine, NeverPublishesACrackBetweenDrawnNodes) {
   EXPECT_GT(published, 20);
 }
 
-TEST(Engine, ShowsTheSameSurfaceHoweverTheWorkWasSliced) {
+TEST_P(EngineWithWorkers, ShowsTheSameSurfaceHoweverTheWorkWasSliced) {
   const auto surface = [](microseconds budget) {
-    Flight flight;
+    Flight flight(GetParam());
     while (flight.engine->figures().pending > 0 || flight.engine->scene()->serial() == 0) {
       flight.engine->update(0.0, budget);
     }
@@ -154,8 +158,8 @@ TEST(Engine, ShowsTheSameSurfaceHoweverTheWorkWasSliced) {
   EXPECT_FALSE(patient.empty());
 }
 
-TEST(Engine, DrawnHeightIsThatOfTheTrianglesInTheScene) {
-  Flight flight;
+TEST_P(EngineWithWorkers, DrawnHeightIsThatOfTheTrianglesInTheScene) {
+  Flight flight(GetParam());
   flight.engine->settle();
   const double n = flight.world->intervals();
   int compared = 0;
@@ -180,8 +184,8 @@ TEST(Engine, DrawnHeightIsThatOfTheTrianglesInTheScene) {
   EXPECT_GT(compared, 100);
 }
 
-TEST(Engine, KnowsNoHeightWhereNothingIsDrawn) {
-  Flight flight;
+TEST_P(EngineWithWorkers, KnowsNoHeightWhereNothingIsDrawn) {
+  Flight flight(GetParam());
   EXPECT_FALSE(flight.engine->drawnHeight({}).has_value());
   EXPECT_FALSE(flight.engine->ground().height({}).has_value());
   flight.engine->settle();
@@ -189,8 +193,8 @@ TEST(Engine, KnowsNoHeightWhereNothingIsDrawn) {
   EXPECT_FALSE(flight.engine->drawnHeight({1000, 0, 0.5, 0.5}).has_value());
 }
 
-TEST(Engine, HasFinestGroundUnderEveryObject) {
-  Flight flight({3, 1});
+TEST_P(EngineWithWorkers, HasFinestGroundUnderEveryObject) {
+  Flight flight(GetParam(), {3, 1});
   auto& second =
       static_cast<Puppet&>(flight.engine->add(std::make_unique<Puppet>(Position{5000, -70, 0.25, 0.75})));
   flight.engine->settle();
@@ -202,8 +206,8 @@ TEST(Engine, HasFinestGroundUnderEveryObject) {
   EXPECT_EQ(*flight.engine->ground().height(sample), static_cast<float>(flight.world->height(sample)));
 }
 
-TEST(Engine, GroundIsNeitherBelowTheFinestNorBelowTheDrawnTriangles) {
-  Flight flight({3, 1});
+TEST_P(EngineWithWorkers, GroundIsNeitherBelowTheFinestNorBelowTheDrawnTriangles) {
+  Flight flight(GetParam(), {3, 1});
   flight.engine->settle();
   for (int k = 0; k < 100; ++k) {
     const Position place{0, 0, k / 100.0, (99 - k) / 100.0};
@@ -215,8 +219,8 @@ TEST(Engine, GroundIsNeitherBelowTheFinestNorBelowTheDrawnTriangles) {
   }
 }
 
-TEST(Engine, PreparesTheGroundAheadOfAMovingObject) {
-  Flight flight({2, 1});
+TEST_P(EngineWithWorkers, PreparesTheGroundAheadOfAMovingObject) {
+  Flight flight(GetParam(), {2, 1});
   flight.puppet->setVelocity(0.0, 400.0);
   flight.engine->settle();
   const double pitch = flight.world->pitch();
@@ -230,8 +234,8 @@ TEST(Engine, PreparesTheGroundAheadOfAMovingObject) {
   }
 }
 
-TEST(Engine, ForgetsWhatLiesFarBehind) {
-  Flight flight;
+TEST_P(EngineWithWorkers, ForgetsWhatLiesFarBehind) {
+  Flight flight(GetParam());
   flight.engine->settle();
   const std::size_t bytes = flight.engine->figures().bytes;
   for (int step = 1; step <= 40; ++step) {
@@ -245,8 +249,8 @@ TEST(Engine, ForgetsWhatLiesFarBehind) {
   EXPECT_LT(flight.engine->figures().bytes, bytes + (std::size_t{2} << 20));
 }
 
-TEST(Engine, DrawsNothingBeyondTheViewThoughGroundIsKeptThere) {
-  Flight flight({0, 2});
+TEST_P(EngineWithWorkers, DrawsNothingBeyondTheViewThoughGroundIsKeptThere) {
+  Flight flight(GetParam(), {0, 2});
   auto& second = static_cast<Puppet&>(flight.engine->add(std::make_unique<Puppet>(Position{1, 1, 0.5, 0.5})));
   flight.engine->settle();
   flight.puppet->moveTo({50, 0, 0.5, 0.5});
@@ -258,8 +262,8 @@ TEST(Engine, DrawsNothingBeyondTheViewThoughGroundIsKeptThere) {
   EXPECT_TRUE(flight.engine->drawnHeight(second.motion().position).has_value());
 }
 
-TEST(Engine, GoesOnAtTheWorldsEnd) {
-  Flight flight({1, 2}, Position{kMaxPatch - 1, -kMaxPatch, 0.5, 0.5});
+TEST_P(EngineWithWorkers, GoesOnAtTheWorldsEnd) {
+  Flight flight(GetParam(), {1, 2}, Position{kMaxPatch - 1, -kMaxPatch, 0.5, 0.5});
   flight.engine->settle();
   EXPECT_EQ(flight.engine->figures().pending, 0U);
   flight.puppet->setVelocity(1e308, -1e308);
@@ -268,15 +272,15 @@ TEST(Engine, GoesOnAtTheWorldsEnd) {
   flight.engine->update(0.1, milliseconds(1));
 }
 
-TEST(Engine, DoesNothingButMoveObjectsWithAZeroBudget) {
-  Flight flight;
+TEST_P(EngineWithWorkers, DoesNothingButMoveObjectsWithAZeroBudget) {
+  Flight flight(GetParam());
   flight.engine->update(0.1, milliseconds(0));
   EXPECT_EQ(flight.engine->figures().slices, 0U);
   EXPECT_EQ(flight.engine->scene()->serial(), 0U);
 }
 
-TEST(Engine, StopsSettlingWhenProgressSaysSo) {
-  Flight flight({0, 60});
+TEST_P(EngineWithWorkers, StopsSettlingWhenProgressSaysSo) {
+  Flight flight(GetParam(), {0, 60});
   std::size_t calls = 0;
   flight.engine->settle([&](std::size_t done, std::size_t wanted) {
     ++calls;

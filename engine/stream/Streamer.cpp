@@ -1,0 +1,289 @@
+#include "stream/Streamer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "patch/NodeTask.h"
+#include "stream/View.h"
+
+namespace teren {
+
+namespace {
+
+constexpr std::size_t kMostMapBytes = std::size_t{64} << 20;
+constexpr std::size_t kLeastMapBytes = std::size_t{1} << 20;
+constexpr std::size_t kSlack = std::size_t{256} << 10;  // what bytes() estimates, and what it leaves out
+constexpr std::size_t kMostGroundBuilds = 8;
+constexpr std::size_t kJoinBatch = 16;  // with workers; without, nodes are joined one by one
+
+// Ground under objects goes before everything else, joining nodes before making more of them.
+constexpr std::int64_t kGroundUrgency = -(std::int64_t{1} << 40);
+constexpr std::int64_t kJoinUrgency = -1;
+
+std::size_t buildBytes(const World& world, int viewLevel) {
+  return std::max(NodeTask::mostBytes(world, 0), NodeTask::mostBytes(world, viewLevel));
+}
+
+std::size_t joinBatch(int workers) {
+  return workers > 0 ? kJoinBatch : 1;
+}
+
+}  // namespace
+
+Streamer::Streamer(const World& world, const EngineOptions& options)
+    : world_(world),
+      options_(options),
+      buildBytes_(buildBytes(world, options.view.level)),
+      maps_(kMostMapBytes),
+      nodes_(world.spacing(0), world.intervals()),
+      runner_(options.workers) {
+  // Tasks in flight may take an eighth of the cap, but there are two at least.
+  const std::size_t most = std::max<std::size_t>(2, options.capBytes / 8 / buildBytes_);
+  mostGroundBuilds_ = std::min(kMostGroundBuilds, most / 2);
+  mostViewBuilds_ = std::clamp<std::size_t>(2 * static_cast<std::size_t>(options.workers), 1, most / 2);
+}
+
+std::size_t Streamer::leastCap(const World& world, const EngineOptions& options) {
+  const NodeStore nodes(world.spacing(0), world.intervals());
+  const std::size_t build = buildBytes(world, options.view.level);
+  const std::size_t drawn = nodes.drawnBytes() + nodes.piecesBytes();
+  constexpr std::size_t kGroundNodes = 9, kViewNodes = 9;
+  return kSlack + std::max(kLeastMapBytes, build) + 2 * build + kGroundNodes * nodes.heldBytes() +
+         (kViewNodes + joinBatch(options.workers)) * drawn;
+}
+
+// ---- Choosing
+
+void Streamer::choose(std::span<const Motion> motions, std::size_t active) {
+  if (motions.empty()) return;
+  const Position eye = motions[active].position;
+  const NodeKey centre = nodeAt(eye, options_.view.level);
+  const std::vector<NodeKey> ground = chooseGround(motions);
+  const MemoryPlan next = plan(ground.size());
+  if (centre_ == centre && plan_ == next &&
+      std::equal(ground.begin(), ground.end(), wanted_.begin(),
+                 wanted_.begin() + static_cast<std::ptrdiff_t>(groundCount_))) {
+    return;
+  }
+  centre_ = centre;
+  plan_ = next;
+  maps_.setCapacity(plan_.mapBytes);
+  rank(ground, eye);
+  planDrops();
+  cancelUnwanted();
+}
+
+std::vector<NodeKey> Streamer::chooseGround(std::span<const Motion> motions) const {
+  std::vector<std::vector<NodeKey>> lists;
+  lists.reserve(motions.size());
+  for (const Motion& motion : motions) lists.push_back(groundNodes(motion, world_));
+  // Every object's own node first, then what each will reach next. A quarter of the cap is for ground.
+  const std::size_t most = std::max(motions.size(), options_.capBytes / 4 / nodes_.heldBytes());
+  std::vector<NodeKey> ground;
+  NodeSet seen;
+  for (std::size_t k = 0, left = lists.size(); left > 0; ++k) {
+    left = 0;
+    for (const std::vector<NodeKey>& list : lists) {
+      if (k >= list.size()) continue;
+      ++left;
+      if (ground.size() < most && seen.insert(list[k]).second) ground.push_back(list[k]);
+    }
+  }
+  return ground;
+}
+
+MemoryPlan Streamer::plan(std::size_t groundNodes) const {
+  MemoryNeeds needs;
+  needs.cap = options_.capBytes;
+  needs.radius = options_.view.radius;
+  needs.perNode = nodes_.drawnBytes() + nodes_.piecesBytes();
+  needs.fixed = kSlack + rendererExtra_ + groundNodes * nodes_.heldBytes() +
+                (mostViewBuilds_ + mostGroundBuilds_) * buildBytes_ +
+                joinBatch(options_.workers) * 2 * nodes_.piecesBytes();
+  needs.leastMaps = std::max(kLeastMapBytes, buildBytes_);
+  needs.mostMaps = std::max(kMostMapBytes, needs.leastMaps);
+  return planMemory(needs);
+}
+
+void Streamer::rank(const std::vector<NodeKey>& ground, const Position& eye) {
+  wanted_ = ground;
+  groundCount_ = ground.size();
+  ranks_.clear();
+  for (std::size_t k = 0; k < wanted_.size(); ++k) ranks_.emplace(wanted_[k], k);
+  for (const NodeKey& key : viewNodes(eye, {options_.view.level, plan_.radius}, world_)) {
+    if (ranks_.emplace(key, wanted_.size()).second) wanted_.push_back(key);
+  }
+  nextWanted_ = 0;
+  missing_ = 0;
+  toJoin_.clear();
+  for (std::size_t k = 0; k < wanted_.size(); ++k) {
+    if (isThere(wanted_[k])) continue;
+    ++missing_;
+    if (nodes_.heights(wanted_[k]) && !joining_.contains(wanted_[k])) toJoin_.insert(k);
+  }
+}
+
+void Streamer::planDrops() {
+  drops_.clear();
+  for (const NodeKey& key : nodes_.nodes()) {
+    if (isDrawable(key)) continue;
+    if (!ranks_.contains(key) || nodes_.isDrawn(key)) drops_.push_back(key);
+  }
+}
+
+void Streamer::cancelUnwanted() {
+  for (auto build = builds_.begin(); build != builds_.end();) {
+    if (ranks_.contains(build->first)) {
+      ++build;
+      continue;
+    }
+    runner_.cancel(build->second.ticket);
+    if (build->second.isGround) --groundBuilds_;
+    build = builds_.erase(build);
+  }
+}
+
+bool Streamer::isDrawable(const NodeKey& key) const noexcept {
+  return centre_ && mayStay(key, *centre_, {options_.view.level, plan_.radius}, plan_.margin);
+}
+
+bool Streamer::isThere(const NodeKey& key) const {
+  return isDrawable(key) ? nodes_.isDrawn(key) : nodes_.heights(key) != nullptr;
+}
+
+// ---- Working
+
+void Streamer::work(Slice::Clock::time_point deadline) {
+  meter_.beginFrame(deadline);
+  while (meter_.mayStart()) {
+    collect();
+    if (!meter_.step(housekeeping_)) continue;
+    if (runner_.workers() > 0 || !meter_.mayStart() || !runner_.stepHere(meter_)) return;
+  }
+}
+
+bool Streamer::Housekeeping::step(const Slice& slice) {
+  while (streamer_.tidyOne()) {
+    if (slice.over()) return false;
+  }
+  return true;
+}
+
+bool Streamer::tidyOne() {
+  if (!drops_.empty()) {
+    drop(drops_.back());
+    drops_.pop_back();
+  } else if (!arrived_.empty()) {
+    integrate(std::move(arrived_.front()));
+    arrived_.pop_front();
+  } else if (!maps_.dropOldest() && !startJoin() && !startBuild()) {
+    return false;
+  }
+  peakBytes_ = std::max(peakBytes_, bytes());
+  return true;
+}
+
+void Streamer::drop(const NodeKey& key) {
+  if (ranks_.contains(key)) {
+    nodes_.undraw(key);  // ground under an object beyond the view
+  } else {
+    nodes_.erase(key);
+  }
+}
+
+void Streamer::collect() {
+  for (TaskRunner::Finished& finished : runner_.takeFinished()) arrived_.push_back(std::move(finished));
+}
+
+void Streamer::integrate(TaskRunner::Finished finished) {
+  if (finished.ticket == join_) {
+    join_ = 0;
+    joinBytes_ = 0;
+    joining_.clear();
+    integrateJoin(static_cast<JoinTask&>(*finished.task).joined());
+    return;
+  }
+  auto& task = static_cast<NodeTask&>(*finished.task);
+  const NodeKey key = task.key();
+  const auto build = builds_.find(key);
+  if (build == builds_.end() || build->second.ticket != finished.ticket) return;  // cancelled meanwhile
+  if (build->second.isGround) --groundBuilds_;
+  builds_.erase(build);
+  nodes_.insert(key, std::make_shared<const HeightMap>(task.takeHeights()));
+  if (isDrawable(key)) {
+    toJoin_.insert(ranks_.at(key));
+  } else {
+    --missing_;
+  }
+}
+
+void Streamer::integrateJoin(std::vector<JoinTask::Joined>& joined) {
+  for (JoinTask::Joined& one : joined) {
+    const auto rank = ranks_.find(one.node);
+    if (rank == ranks_.end() || isThere(one.node) || !nodes_.heights(one.node)) continue;
+    if (nodes_.draw(one.node, one.pieces)) {
+      --missing_;
+    } else {
+      toJoin_.insert(rank->second);  // its neighbours have changed: once more
+    }
+  }
+  peakMeshBytes_ = std::max(peakMeshBytes_, nodes_.meshBytes());
+}
+
+bool Streamer::startJoin() {
+  if (join_ != 0 || toJoin_.empty()) return false;
+  const std::size_t count = std::min(joinBatch(options_.workers), toJoin_.size());
+  const std::size_t bytes = count * nodes_.piecesBytes();
+  if (!hasRoomFor(2 * bytes)) return false;
+  std::vector<NodeKey> batch;
+  for (std::size_t k = 0; k < count; ++k) {
+    batch.push_back(wanted_[*toJoin_.begin()]);
+    toJoin_.erase(toJoin_.begin());
+  }
+  joining_.insert(batch.begin(), batch.end());
+  joinBytes_ = bytes;
+  join_ = runner_.submit(std::make_unique<JoinTask>(nodes_, batch), kJoinUrgency);
+  return true;
+}
+
+bool Streamer::startBuild() {
+  while (nextWanted_ < wanted_.size() &&
+         (nodes_.heights(wanted_[nextWanted_]) || builds_.contains(wanted_[nextWanted_]))) {
+    ++nextWanted_;
+  }
+  if (nextWanted_ == wanted_.size() || !hasRoomFor(buildBytes_)) return false;
+  const bool ground = isGround(nextWanted_);
+  if (ground ? groundBuilds_ == mostGroundBuilds_ : builds_.size() - groundBuilds_ == mostViewBuilds_) {
+    return false;
+  }
+  const NodeKey& key = wanted_[nextWanted_];
+  const auto rank = static_cast<std::int64_t>(nextWanted_);
+  const auto ticket =
+      runner_.submit(std::make_unique<NodeTask>(world_, key, maps_), ground ? kGroundUrgency + rank : rank);
+  builds_.emplace(key, Build{ticket, ground});
+  if (ground) ++groundBuilds_;
+  ++nextWanted_;
+  return true;
+}
+
+bool Streamer::isSettled() const {
+  if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty()) return false;
+  return missing_ == 0 || !hasRoomFor(std::max(buildBytes_, 2 * nodes_.piecesBytes()));
+}
+
+std::size_t Streamer::bytes() const {
+  return maps_.bytes() + nodes_.bytes() + rendererBytes_ + builds_.size() * buildBytes_ + joinBytes_;
+}
+
+bool Streamer::hasRoomFor(std::size_t more) const {
+  const std::size_t renderer = std::max(rendererBytes_, nodes_.meshBytes() + rendererExtra_);
+  return bytes() - rendererBytes_ + renderer + more <= options_.capBytes;
+}
+
+void Streamer::setRendererBytes(std::size_t bytes) noexcept {
+  rendererBytes_ = bytes;
+  if (bytes > peakMeshBytes_) rendererExtra_ = std::max(rendererExtra_, bytes - peakMeshBytes_);
+}
+
+}  // namespace teren

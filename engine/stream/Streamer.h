@@ -1,0 +1,127 @@
+// The engine's work: decides which nodes are wanted, has them made, joins them to the drawn set, frees what
+// is not wanted, and keeps all of it under the byte cap.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "teren/Engine.h"
+
+#include "patch/NodeKey.h"
+#include "schedule/SliceMeter.h"
+#include "schedule/TaskRunner.h"
+#include "stream/JoinTask.h"
+#include "stream/MemoryPlan.h"
+#include "stream/NodeStore.h"
+#include "world/BaseMap.h"
+
+namespace teren {
+
+/// One thread calls it; with workers, nodes and pieces are made on theirs, and the caller only hands out
+/// tasks, takes what is finished and frees. All of the caller's work is done in slices (law 4).
+///
+/// Under the cap (law 6) the view's radius and the room for base maps are planned from what a node costs
+/// (MemoryPlan), as many bytes again as its meshes have set aside for the renderer's copy of them, and no
+/// task begins unless there is room for what it makes. So the cap holds at every moment, unless a renderer
+/// takes more than that (then the view shrinks at the next choice).
+class Streamer {
+ public:
+  Streamer(const World& world, const EngineOptions& options);
+
+  /// What the cap must be at least for such a world and view: ground, one task in flight, a view of radius 1.
+  static std::size_t leastCap(const World& world, const EngineOptions& options);
+
+  /// Chooses what is wanted around these objects. Cheap unless one has come to another node.
+  void choose(std::span<const Motion> motions, std::size_t active);
+  /// Works until the deadline or until there is nothing to do (here, or yet).
+  void work(Slice::Clock::time_point deadline);
+  /// With workers: waits a while for one to finish something.
+  void wait(std::chrono::milliseconds most) { runner_.waitForFinished(most); }
+  /// Nothing is missing, or nothing more can be done under the cap; and nothing is left to free.
+  bool isSettled() const;
+
+  const NodeStore& nodes() const noexcept { return nodes_; }
+  const SliceMeter& meter() const noexcept { return meter_; }
+  const MemoryPlan& plan() const noexcept { return plan_; }
+  std::size_t wanted() const noexcept { return wanted_.size(); }
+  std::size_t missing() const noexcept { return missing_; }  ///< of what is wanted
+  std::size_t bytes() const;
+  std::size_t peakBytes() const noexcept { return peakBytes_; }
+  void setRendererBytes(std::size_t bytes) noexcept;
+
+ private:
+  struct Build {
+    TaskRunner::Ticket ticket;
+    bool isGround;
+  };
+  /// The caller's own work, as a task: freeing, integrating, handing out.
+  class Housekeeping final : public SlicedTask {
+   public:
+    explicit Housekeeping(Streamer& streamer) : streamer_(streamer) {}
+    bool step(const Slice& slice) override;
+
+   private:
+    Streamer& streamer_;
+  };
+
+  // Choosing
+  std::vector<NodeKey> chooseGround(std::span<const Motion> motions) const;
+  MemoryPlan plan(std::size_t groundNodes) const;
+  void rank(const std::vector<NodeKey>& ground, const Position& eye);
+  void planDrops();
+  void cancelUnwanted();
+  bool isDrawable(const NodeKey& key) const noexcept;
+  bool isThere(const NodeKey& key) const;
+  bool isGround(std::size_t rank) const noexcept { return rank < groundCount_; }
+
+  // Working
+  bool tidyOne();
+  void drop(const NodeKey& key);
+  void collect();
+  void integrate(TaskRunner::Finished finished);
+  void integrateJoin(std::vector<JoinTask::Joined>& joined);
+  bool startJoin();
+  bool startBuild();
+  /// Under the cap, with the renderer's share of what is drawn already.
+  bool hasRoomFor(std::size_t more) const;
+
+  const World& world_;
+  EngineOptions options_;
+  std::size_t buildBytes_;  // of one node task
+  std::size_t mostViewBuilds_, mostGroundBuilds_;
+  BaseMapStore maps_;
+  NodeStore nodes_;
+  SliceMeter meter_;
+  Housekeeping housekeeping_{*this};
+
+  MemoryPlan plan_;
+  std::optional<NodeKey> centre_;  // the view's node under the active object
+  std::size_t groundCount_ = 0;    // the first of wanted_: level-0 nodes under objects
+  std::vector<NodeKey> wanted_;    // most urgent first
+  std::unordered_map<NodeKey, std::size_t, NodeKeyHash> ranks_;  // in wanted_
+  std::size_t missing_ = 0;
+  std::size_t nextWanted_ = 0;    // all before it are held or being made
+  std::vector<NodeKey> drops_;    // to be freed, when there is time
+  std::set<std::size_t> toJoin_;  // ranks of nodes held and to be drawn
+
+  std::size_t rendererBytes_ = 0, peakMeshBytes_ = 0;
+  std::size_t rendererExtra_ = 0;  // the most that the renderer held beyond a copy of all meshes
+  std::size_t peakBytes_ = 0;
+
+  std::unordered_map<NodeKey, Build, NodeKeyHash> builds_;  // in flight or arrived
+  std::size_t groundBuilds_ = 0;
+  TaskRunner::Ticket join_ = 0;  // in flight or arrived; 0: none
+  std::size_t joinBytes_ = 0;
+  NodeSet joining_;
+  std::deque<TaskRunner::Finished> arrived_;
+  TaskRunner runner_;  // last: ends before what its tasks use
+};
+
+}  // namespace teren
