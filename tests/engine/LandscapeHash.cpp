@@ -1,9 +1,12 @@
-// One number for a whole landscape: prints a hash over baked regions, heights and queries of two worlds, near
-// and far from the world's zero. tests/same-bits runs it in many ways; the number must never differ (law 1).
-//   landscape-hash [--slice-us N] [--visit-seed N]    N = 0: unlimited slices, visits row by row
-//   landscape-hash --libm                             a hash over glibc's own sin, exp, log and pow instead,
-//   to
-//                                                     show whether glibc was told to compute otherwise
+// One number for a whole landscape: prints a hash over baked regions, heights, queries and drawn surfaces of
+// two worlds, near and far from the world's zero. tests/same-bits runs it in many ways; the number must never
+// differ (law 1).
+//   landscape-hash [--slice-us N] [--visit-seed N] [--workers N] [--cap-mib N]
+//       slice 0: unlimited; visit seed 0: row by row; the engine's workers; the engine's cap, under which it
+//       must give up some of its view, or this ends with 1 (0, the default: a cap that never matters)
+//   landscape-hash --libm
+//       a hash over glibc's own sin, exp, log and pow instead, to show whether glibc was told to compute
+//       otherwise
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,14 +17,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <initializer_list>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "teren/Bake.h"
+#include "teren/Engine.h"
 #include "teren/Hash.h"
 #include "teren/PluginRegistry.h"
 #include "teren/Position.h"
@@ -110,16 +116,99 @@ void addPoints(Fnv1a& hash, const World& world, std::uint64_t visitSeed) {
   }
 }
 
-std::uint64_t landscapeHash(std::uint64_t sliceMicroseconds, std::uint64_t visitSeed) {
+/// How the same landscape is to be made this time.
+struct Trial {
+  std::uint64_t sliceMicroseconds = 0, visitSeed = 0, workers = 0, capMib = 0;
+};
+
+class Visitor final : public teren::Object {
+ public:
+  void update(double, const teren::Ground&) override {}
+  teren::Motion motion() const override { return motion_; }
+  void moveTo(const Position& position) { motion_.position = position; }
+
+ private:
+  teren::Motion motion_;
+};
+
+/// Hash of the vertices drawn within `reach` level-0 samples of a position, whatever meshes they are in.
+std::uint64_t surfaceHash(const teren::Scene& scene, const Position& position, int intervals,
+                          std::int64_t reach) {
+  using Vertex = std::tuple<std::int64_t, std::int64_t, float, int, int>;
+  std::vector<Vertex> vertices;
+  for (const auto& mesh : scene.meshes()) {
+    for (const teren::SurfaceVertex& vertex : mesh->vertices) {
+      const std::int64_t column = mesh->originColumn + (std::int64_t{vertex.column} << mesh->level);
+      const std::int64_t row = mesh->originRow + (std::int64_t{vertex.row} << mesh->level);
+      const std::int64_t east = column - position.i * intervals, north = row - position.j * intervals;
+      if (std::max(std::abs(east), std::abs(north)) > reach) continue;
+      vertices.emplace_back(column, row, vertex.height, vertex.normalX, vertex.normalY);
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  Fnv1a hash;
+  for (const Vertex& vertex : vertices) {
+    std::apply([&](auto... parts) { (add(hash, parts), ...); }, vertex);
+  }
+  return hash.value();
+}
+
+/// An engine visits a few places in the order of the seed, twice each, so that under a small cap all is made
+/// again; what was drawn there is added in the order of the places.
+void addSurfaces(Fnv1a& hash, const std::shared_ptr<const World>& world, const Trial& trial) {
+  constexpr int kLevel = 1, kRadius = 12;
+  constexpr std::int64_t kPatches = 4;  // a view of radius 2 shows all that is hashed
+  teren::EngineOptions options{.view = {kLevel, kRadius}, .workers = static_cast<int>(trial.workers)};
+  if (trial.capMib > 0) options.capBytes = static_cast<std::size_t>(trial.capMib) << 20;
+  const auto engine = valueOrExit(teren::Engine::create(world, options));
+  auto& visitor = static_cast<Visitor&>(engine->add(std::make_unique<Visitor>()));
+  const std::vector<Position> places = {
+      {0, 0, 0.5, 0.5}, {20, 2, 0.25, 0.0}, {kFar, -kFar, 0.5, 0.5}, {kFar + 9, -kFar, 0.0, 0.0}};
+  std::vector<std::size_t> visits(2 * places.size());
+  std::iota(visits.begin(), visits.end(), std::size_t{0});
+  if (trial.visitSeed != 0) {
+    std::sort(visits.begin(), visits.end(), [&](std::size_t a, std::size_t b) {
+      return teren::hashWith(trial.visitSeed, a) < teren::hashWith(trial.visitSeed, b);
+    });
+  }
+  std::vector<std::uint64_t> hashes(places.size());
+  for (const std::size_t visit : visits) {
+    const std::size_t index = visit % places.size();
+    visitor.moveTo(places[index]);
+    if (trial.sliceMicroseconds > 0) {
+      const std::chrono::microseconds budget(trial.sliceMicroseconds);
+      do engine->update(0.0, budget);
+      while (engine->figures().pending > 0);
+    }
+    engine->settle();
+    const std::int64_t n = world->intervals();
+    const std::uint64_t found =
+        surfaceHash(*engine->scene(), places[index], world->intervals(), kPatches * n);
+    if (hashes[index] != 0 && hashes[index] != found) {
+      std::fprintf(stderr, "landscape-hash: place %zu looked otherwise the second time\n", index);
+      std::exit(1);
+    }
+    hashes[index] = found;
+  }
+  if (trial.capMib > 0 && engine->figures().radius == kRadius) {
+    std::fprintf(stderr, "landscape-hash: the cap is too large to matter\n");
+    std::exit(1);
+  }
+  for (const std::uint64_t found : hashes) add(hash, found);
+}
+
+std::uint64_t landscapeHash(const Trial& trial) {
   teren::BakeOptions options;
-  options.slice = std::chrono::microseconds(sliceMicroseconds);
-  options.visitSeed = visitSeed;
+  options.slice = std::chrono::microseconds(trial.sliceMicroseconds);
+  options.visitSeed = trial.visitSeed;
   const auto registry = teren::PluginRegistry::standard();
   Fnv1a hash;
   for (const auto& description : {teren::WorldDescription::standard(), filteredFaults()}) {
     const std::shared_ptr<const World> world = valueOrExit(World::create(description, *registry));
     addRegions(hash, *world, options);
-    addPoints(hash, *world, visitSeed);
+    addPoints(hash, *world, trial.visitSeed);
+    addSurfaces(hash, world, trial);
   }
   return hash.value();
 }
@@ -147,20 +236,27 @@ std::uint64_t numberOrExit(std::string_view text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::uint64_t sliceMicroseconds = 0;
-  std::uint64_t visitSeed = 0;
+  Trial trial;
+  const std::pair<std::string_view, std::uint64_t Trial::*> options[] = {
+      {"--slice-us", &Trial::sliceMicroseconds},
+      {"--visit-seed", &Trial::visitSeed},
+      {"--workers", &Trial::workers},
+      {"--cap-mib", &Trial::capMib}};
   for (int index = 1; index < argc; ++index) {
-    const std::string_view option = argv[index];
-    if (option == "--libm") {
+    const std::string_view name = argv[index];
+    if (name == "--libm") {
       std::printf("%016llx\n", static_cast<unsigned long long>(libmHash()));
       return 0;
     }
-    const bool known = option == "--slice-us" || option == "--visit-seed";
-    if (!known || index + 1 == argc) {
-      std::fprintf(stderr, "usage: landscape-hash [--slice-us N] [--visit-seed N] | --libm\n");
+    const auto* option = std::find_if(std::begin(options), std::end(options),
+                                      [&](const auto& one) { return one.first == name; });
+    if (option == std::end(options) || index + 1 == argc) {
+      std::fprintf(
+          stderr,
+          "usage: landscape-hash [--slice-us N] [--visit-seed N] [--workers N] [--cap-mib N] | --libm\n");
       return 2;
     }
-    (option == "--slice-us" ? sliceMicroseconds : visitSeed) = numberOrExit(argv[++index]);
+    trial.*(option->second) = numberOrExit(argv[++index]);
   }
-  std::printf("%016llx\n", static_cast<unsigned long long>(landscapeHash(sliceMicroseconds, visitSeed)));
+  std::printf("%016llx\n", static_cast<unsigned long long>(landscapeHash(trial)));
 }
