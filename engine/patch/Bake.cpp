@@ -1,6 +1,5 @@
 #include "teren/Bake.h"
 
-#include <algorithm>
 #include <bit>
 #include <string>
 #include <vector>
@@ -61,17 +60,10 @@ void shuffle(std::vector<NodeKey>& nodes, std::uint64_t seed) {
 void place(const HeightMap& node, const NodeKey& key, const Extent& columns, const Extent& rows,
            HeightMap& target) {
   const std::int64_t n = node.columns() - 1;
-  const auto overlap = [n](std::int64_t index, const Extent& e) {
-    const std::int64_t from = std::max(index * n, e.first),
-                       to = std::min((index + 1) * n, e.first + e.count - 1);
-    return Extent{from, to - from + 1};
-  };
-  const Extent x = overlap(key.i, columns), y = overlap(key.j, rows);
-  const auto width = static_cast<int>(x.count), height = static_cast<int>(y.count);
-  copyHeights(node.view().part(static_cast<int>(x.first - key.i * n), static_cast<int>(y.first - key.j * n),
-                               width, height),
-              target.view().part(static_cast<int>(x.first - columns.first),
-                                 static_cast<int>(y.first - rows.first), width, height));
+  const MatchedParts parts =
+      matchedParts(node.view(), target.view(), static_cast<int>(key.i * n - columns.first),
+                   static_cast<int>(key.j * n - rows.first));
+  copyHeights(parts.source, parts.target);
 }
 
 }  // namespace

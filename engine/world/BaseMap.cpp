@@ -1,6 +1,5 @@
 #include "world/BaseMap.h"
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "teren/Hash.h"
+#include "teren/HeightMapOperations.h"
 #include "teren/Parameter.h"
 #include "teren/Quote.h"
 
@@ -67,9 +67,7 @@ void BaseMapTask::check() {
 
 void BaseMapTask::fail(const std::string& why) {
   current_.reset();
-  const auto mean = static_cast<float>(layer_.range().mean);
-  const HeightView heights = map_->view();
-  for (int y = 0; y < heights.rows(); ++y) std::fill_n(heights.row(y), heights.columns(), mean);
+  fillHeights(map_->view(), static_cast<float>(layer_.range().mean));
   layer_.report("layer " + inQuotes(layer_.name()) + " at lattice point (" + std::to_string(request_.i) +
                 ", " + std::to_string(request_.j) + ") " + why + "; its mean is used there instead");
 }
