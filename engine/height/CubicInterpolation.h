@@ -49,4 +49,9 @@ inline double combine(const std::array<double, 4>& weight, double a, double b, d
   return ((weight[0] * a + weight[1] * b) + weight[2] * c) + weight[3] * d;
 }
 
+/// The taps' weighted sum over a row of samples.
+inline double combineAlong(const CubicTaps& taps, const float* row) noexcept {
+  return combine(taps.weight, row[taps.index[0]], row[taps.index[1]], row[taps.index[2]], row[taps.index[3]]);
+}
+
 }  // namespace teren

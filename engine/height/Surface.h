@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "teren/HeightMap.h"
-
 namespace teren {
 
 /// Heights at the corners of a grid square [m].
@@ -34,10 +32,6 @@ inline TrianglePoint sampleTriangle(const SquareHeights& corner, double x, doubl
   point.height = corner.southWest + (x * point.slopeX + y * point.slopeY);
   return point;
 }
-
-/// The drawn height at (x, y), in samples from the south-west one, of a grid of at least 2 x 2;
-/// 0 <= x <= columns - 1 and likewise y.
-double drawnHeightAt(ConstHeightView heights, double x, double y) noexcept;
 
 /// A unit normal as stored in a vertex: x and y as round(32767 n); z follows and is positive.
 struct PackedNormal {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "height/Surface.h"
+#include "teren/HeightSampling.h"
 
 namespace teren {
 
@@ -131,7 +131,7 @@ std::optional<double> NodeStore::height(const Position& position, int level) con
   const double scale = intervals_ / patches;
   const double x = (static_cast<double>(position.i - (key.i << level)) + position.u) * scale;
   const double y = (static_cast<double>(position.j - (key.j << level)) + position.v) * scale;
-  return drawnHeightAt(std::as_const(*held).view(), x, y);
+  return triangleHeight(std::as_const(*held).view(), x, y);
 }
 
 std::shared_ptr<const Scene> NodeStore::snapshot() const {

@@ -15,8 +15,7 @@ double meanAndDeviation(const Layer& layer, double deviation, double squares) {
 }
 
 double acrossPlace(const CubicTaps& taps, bool exact, const float* row) {
-  if (exact) return row[taps.index[1]];
-  return combine(taps.weight, row[taps.index[0]], row[taps.index[1]], row[taps.index[2]], row[taps.index[3]]);
+  return exact ? row[taps.index[1]] : combineAlong(taps, row);
 }
 
 }  // namespace

@@ -18,15 +18,6 @@ float height(RandomSequence& random) {
   return static_cast<float>(2000.0 * uniform(random) - 1000.0);
 }
 
-HeightMap randomMap(std::uint64_t seed, int columns, int rows) {
-  RandomSequence random(seed);
-  HeightMap map(columns, rows);
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) map(x, y) = height(random);
-  }
-  return map;
-}
-
 TEST(Surface, GoesThroughTheCornersOfASquare) {
   const SquareHeights corner{1.25, -7.5, 300.0, 12.0};
   EXPECT_EQ(sampleTriangle(corner, 0.0, 0.0).height, 1.25);
@@ -66,32 +57,6 @@ TEST(Surface, ReportsTheSlopesItIsDrawnWith) {
     constexpr double h = 0x1p-6;  // stays in the same triangle
     ASSERT_NEAR((sampleTriangle(corner, x + h, y).height - point.height) / h, point.slopeX, 1e-8);
     ASSERT_NEAR((sampleTriangle(corner, x, y + h).height - point.height) / h, point.slopeY, 1e-8);
-  }
-}
-
-TEST(Surface, OfAGridHasItsSamplesExactlyRimsIncluded) {
-  const HeightMap map = randomMap(23, 7, 5);
-  for (int y = 0; y < 5; ++y) {
-    for (int x = 0; x < 7; ++x) EXPECT_EQ(drawnHeightAt(map.view(), x, y), map(x, y)) << x << ", " << y;
-  }
-}
-
-TEST(Surface, OfAGridHasOneEdgeBetweenNeighbouringSquares) {
-  constexpr std::uint64_t kSeed = 24;
-  RecordProperty("seed", static_cast<int>(kSeed));
-  const HeightMap map = randomMap(kSeed, 9, 9);
-  RandomSequence random(kSeed);
-  for (int trial = 0; trial < 2000; ++trial) {
-    const int line = 1 + static_cast<int>(random.nextBits(20) % 7);
-    const double along = 8.0 * uniform(random);
-    const int first = std::min(static_cast<int>(along), 7);
-    const auto at = [&](int x, int y) { return static_cast<double>(map(x, y)); };
-    const double across = at(line, first) + (along - first) * (at(line, first + 1) - at(line, first));
-    ASSERT_NEAR(drawnHeightAt(map.view(), line, along), across, 1e-9);
-    ASSERT_NEAR(drawnHeightAt(map.view(), std::nextafter(line, 0.0), along), across, 1e-9);
-    const double up = at(first, line) + (along - first) * (at(first + 1, line) - at(first, line));
-    ASSERT_NEAR(drawnHeightAt(map.view(), along, line), up, 1e-9);
-    ASSERT_NEAR(drawnHeightAt(map.view(), along, std::nextafter(line, 0.0)), up, 1e-9);
   }
 }
 
