@@ -147,7 +147,7 @@ Motion Aircraft::motion() const {
   return {position_, height_, speed_ * std::sin(heading_), speed_ * std::cos(heading_), climbRate_};
 }
 
-Attitude Aircraft::attitude() const noexcept {
+Pose Aircraft::pose() const noexcept {
   return {position_, height_, heading_, std::atan2(climbRate_, speed_), roll_};
 }
 

@@ -11,7 +11,7 @@ namespace teren {
 
 /// Where an object is and how it is turned. Angles in radians: heading clockwise from north, [0, 2 pi);
 /// pitch and roll positive for nose up and right wing down.
-struct Attitude {
+struct Pose {
   Position position = {};
   double height = 0.0;  ///< [m]
   double heading = 0.0, pitch = 0.0, roll = 0.0;
@@ -57,7 +57,7 @@ class Aircraft : public Object {
   void update(double dt, const Ground& ground) override;
   Motion motion() const override;
 
-  Attitude attitude() const noexcept;
+  Pose pose() const noexcept;
   double speed() const noexcept { return speed_; }          ///< [m/s] over ground
   double heading() const noexcept { return heading_; }      ///< [rad] [0, 2 pi)
   double clearance() const noexcept { return clearance_; }  ///< [m] as chosen

@@ -166,7 +166,7 @@ SoSeparator* propeller(SoRotation* turn) {
 
 }  // namespace
 
-SbRotation rotationOf(const Attitude& attitude) {
+SbRotation rotationOf(const Pose& attitude) {
   const SbRotation roll(SbVec3f(0.0F, 1.0F, 0.0F), static_cast<float>(attitude.roll));
   const SbRotation pitch(SbVec3f(1.0F, 0.0F, 0.0F), static_cast<float>(attitude.pitch));
   const SbRotation heading(SbVec3f(0.0F, 0.0F, 1.0F), static_cast<float>(-attitude.heading));
@@ -199,7 +199,7 @@ void AircraftModel::setVisible(bool visible) {
   root_->whichChild = visible ? SO_SWITCH_ALL : SO_SWITCH_NONE;
 }
 
-void AircraftModel::show(const SbVec3f& place, const Attitude& attitude, double dt) {
+void AircraftModel::show(const SbVec3f& place, const Pose& attitude, double dt) {
   transform_->translation = place;
   transform_->rotation = rotationOf(attitude);
   propellerTurn_ = std::fmod(propellerTurn_ + kPropellerRate * dt, 2.0 * std::numbers::pi);

@@ -14,7 +14,7 @@ class SoTransform;
 namespace teren {
 
 /// Turns a thing whose nose points north and whose top points up into the attitude's direction.
-SbRotation rotationOf(const Attitude& attitude);
+SbRotation rotationOf(const Pose& attitude);
 
 /// The model: 9 m long, 11 m across, its own zero at the wings.
 class AircraftModel {
@@ -27,7 +27,7 @@ class AircraftModel {
   SoSwitch* node() const noexcept { return root_; }
   void setVisible(bool visible);
   /// `place` is the aircraft's in scene coordinates; the propeller turns on by `dt` [s].
-  void show(const SbVec3f& place, const Attitude& attitude, double dt);
+  void show(const SbVec3f& place, const Pose& attitude, double dt);
 
  private:
   SoSwitch* root_;  // referenced

@@ -23,7 +23,7 @@ double turnBetween(double from, double to) {
 
 }  // namespace
 
-void CameraRig::update(double dt, const CameraMoves& moves, const Attitude& object) {
+void CameraRig::update(double dt, const CameraMoves& moves, const Pose& object) {
   Offset3& at = offset();
   const double rate = kMoveRate + kMoveShare * std::hypot(at.forward, at.right, at.up);
   const auto moved = [rate, dt](double value, double move) {
@@ -57,11 +57,11 @@ void CameraRig::togglePerson() noexcept {
   person_ = person_ == Person::first ? Person::third : Person::first;
 }
 
-Viewpoint CameraRig::viewpoint(const Attitude& object, const Ground& ground, double waterLevel) const {
+Viewpoint CameraRig::viewpoint(const Pose& object, const Ground& ground, double waterLevel) const {
   const bool third = person_ == Person::third;
   Viewpoint view;
   view.fieldOfView = fieldOfView_;
-  Attitude& eye = view.attitude;
+  Pose& eye = view.attitude;
   eye.heading = object.heading + lookRight_ - (third ? lag_ : 0.0);
   const double tilt = third ? kThirdTilt : kPitchFollowed * object.pitch;
   eye.pitch = std::clamp(tilt + lookUp_, -kMaxPitch, kMaxPitch);

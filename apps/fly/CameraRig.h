@@ -8,9 +8,9 @@
 
 namespace teren {
 
-/// The camera: where it is in the world and how it is turned. Angles as in Attitude.
+/// The camera: where it is in the world and how it is turned. Angles as in Pose.
 struct Viewpoint {
-  Attitude attitude;
+  Pose attitude;
   double fieldOfView = 0.0;  ///< [rad] of the picture's height
 };
 
@@ -33,7 +33,7 @@ class CameraRig {
 
   /// Moves the offset for dt [s] (>= 0); the farther out, the faster. The view follows the object's turns
   /// with a small lag in third person.
-  void update(double dt, const CameraMoves& moves, const Attitude& object);
+  void update(double dt, const CameraMoves& moves, const Pose& object);
 
   /// Turns the view by angles [rad], right and up positive.
   void look(double right, double up);
@@ -45,7 +45,7 @@ class CameraRig {
   Person person() const noexcept { return person_; }
 
   /// The camera for an object at `object`, never lower than kEyeClearance above known ground or water.
-  Viewpoint viewpoint(const Attitude& object, const Ground& ground, double waterLevel) const;
+  Viewpoint viewpoint(const Pose& object, const Ground& ground, double waterLevel) const;
 
  private:
   struct Offset3 {

@@ -74,7 +74,7 @@ void FlyScene::moveZero(double pitch) {
 
 void FlyScene::show(const Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt) {
   const double pitch = flight.engine().world().pitch();
-  const Attitude& eye = view.attitude;
+  const Pose& eye = view.attitude;
   if (zero_.follow(eye.position, pitch)) moveZero(pitch);
   terrain_->setScene(flight.engine().scene());
 
@@ -87,7 +87,7 @@ void FlyScene::show(const Flight& flight, const Viewpoint& view, CameraRig::Pers
   sky_.moveTo(place);
 
   for (std::size_t index = 0; index < models_.size(); ++index) {
-    const Attitude aircraft = flight.aircraft()[index]->attitude();
+    const Pose aircraft = flight.aircraft()[index]->pose();
     models_[index]->setVisible(person == CameraRig::Person::third || index != flight.active());
     models_[index]->show(this->place(aircraft.position, aircraft.height, pitch), aircraft, dt);
   }

@@ -111,7 +111,7 @@ void FlyWindow::tick() {
   lastTick_ = now;
   const bool last = isLastFrame(now);
   flight_.advance(paused_ ? 0.0 : dt, keys_.controls());
-  rig_.update(dt, keys_.cameraMoves(), flight_.activeAircraft().attitude());
+  rig_.update(dt, keys_.cameraMoves(), flight_.activeAircraft().pose());
   updateScene(paused_ ? 0.0 : dt);
   if (last || now - lastFigures_ > kBetweenFigures) {
     showFigures();
@@ -135,7 +135,7 @@ void FlyWindow::tick() {
 }
 
 void FlyWindow::updateScene(double dt) {
-  const Viewpoint view = rig_.viewpoint(flight_.activeAircraft().attitude(), flight_.engine().ground(),
+  const Viewpoint view = rig_.viewpoint(flight_.activeAircraft().pose(), flight_.engine().ground(),
                                         static_cast<double>(daylight_.waterLevel));
   scene_.show(flight_, view, rig_.person(), dt);
 }

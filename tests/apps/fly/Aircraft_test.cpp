@@ -147,15 +147,15 @@ TEST(Aircraft, TurnsToTheRightInClockwiseHeadingsWithTheRightWingDown) {
   aircraft.update(2.0, ground);
   EXPECT_GT(aircraft.heading(), 0.5);
   EXPECT_LT(aircraft.heading(), 1.0);
-  EXPECT_GT(aircraft.attitude().roll, 0.5);
-  EXPECT_LE(aircraft.attitude().roll, Aircraft::kMaxRoll);
+  EXPECT_GT(aircraft.pose().roll, 0.5);
+  EXPECT_LE(aircraft.pose().roll, Aircraft::kMaxRoll);
   const Motion motion = aircraft.motion();
   EXPECT_GT(motion.east, 0.0);
   EXPECT_NEAR(std::atan2(motion.east, motion.north), aircraft.heading(), 1e-12);
 
   aircraft.setControls({});
   aircraft.update(10.0, ground);
-  EXPECT_NEAR(aircraft.attitude().roll, 0.0, 1e-6);
+  EXPECT_NEAR(aircraft.pose().roll, 0.0, 1e-6);
 }
 
 TEST(Aircraft, KeepsItsHeadingBetweenZeroAndAFullTurn) {

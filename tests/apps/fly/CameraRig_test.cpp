@@ -13,17 +13,17 @@ namespace {
 constexpr double kDry = -1e9;
 constexpr double kPi = std::numbers::pi;
 
-Attitude above(double height, double heading = 0.0) {
+Pose above(double height, double heading = 0.0) {
   return {{5, 6, 0.5, 0.5}, height, heading, 0.0, 0.0};
 }
 
-Offset fromObject(const Attitude& object, const Viewpoint& view) {
+Offset fromObject(const Pose& object, const Viewpoint& view) {
   return offset(object.position, view.attitude.position, 64.0);
 }
 
 TEST(CameraRig, BeginsInThirdPersonBehindAndAboveTheObject) {
   const CameraRig rig;
-  const Attitude object = above(100.0, kPi / 2.0);  // heading east
+  const Pose object = above(100.0, kPi / 2.0);  // heading east
   const Viewpoint view = rig.viewpoint(object, flatGround(0.0), kDry);
   EXPECT_EQ(rig.person(), CameraRig::Person::third);
   EXPECT_LT(fromObject(object, view).east, -15.0);
@@ -35,7 +35,7 @@ TEST(CameraRig, BeginsInThirdPersonBehindAndAboveTheObject) {
 TEST(CameraRig, SitsInTheObjectInFirstPersonAndRollsWithIt) {
   CameraRig rig;
   rig.togglePerson();
-  Attitude object = above(100.0);
+  Pose object = above(100.0);
   object.roll = 0.5;
   const Viewpoint view = rig.viewpoint(object, flatGround(0.0), kDry);
   EXPECT_EQ(rig.person(), CameraRig::Person::first);
@@ -46,7 +46,7 @@ TEST(CameraRig, SitsInTheObjectInFirstPersonAndRollsWithIt) {
 TEST(CameraRig, MovesRelativeToTheObjectsHeading) {
   CameraRig rig;
   rig.togglePerson();
-  const Attitude object = above(100.0, kPi / 2.0);
+  const Pose object = above(100.0, kPi / 2.0);
   const Viewpoint before = rig.viewpoint(object, flatGround(0.0), kDry);
   rig.update(1.0, {.forward = 1.0, .right = 1.0, .up = 1.0}, object);
   const Viewpoint after = rig.viewpoint(object, flatGround(0.0), kDry);
@@ -58,7 +58,7 @@ TEST(CameraRig, MovesRelativeToTheObjectsHeading) {
 
 TEST(CameraRig, StaysWithinItsGreatestOffset) {
   CameraRig rig;
-  const Attitude object = above(100.0);
+  const Pose object = above(100.0);
   rig.update(1e6, {.forward = -1.0}, object);
   EXPECT_NEAR(fromObject(object, rig.viewpoint(object, flatGround(0.0), kDry)).north, -CameraRig::kMaxOffset,
               1.0);
@@ -66,7 +66,7 @@ TEST(CameraRig, StaysWithinItsGreatestOffset) {
 
 TEST(CameraRig, GoesBackToItsDefaultWhenReset) {
   CameraRig rig;
-  const Attitude object = above(1000.0);
+  const Pose object = above(1000.0);
   const Viewpoint before = rig.viewpoint(object, flatGround(0.0), kDry);
   rig.update(2.0, {1.0, -1.0, 1.0}, object);
   rig.look(1.0, 0.4);
@@ -81,7 +81,7 @@ TEST(CameraRig, GoesBackToItsDefaultWhenReset) {
 
 TEST(CameraRig, CirclesTheObjectWhenLookingAroundInThirdPerson) {
   CameraRig rig;
-  const Attitude object = above(500.0);
+  const Pose object = above(500.0);
   rig.look(kPi / 2.0, 0.0);
   const Viewpoint view = rig.viewpoint(object, flatGround(0.0), kDry);
   EXPECT_NEAR(view.attitude.heading, kPi / 2.0, 1e-12);
@@ -112,7 +112,7 @@ TEST(CameraRig, ZoomsBetweenItsLimits) {
 
 TEST(CameraRig, KeepsTheEyeAboveGroundAndWater) {
   CameraRig rig;
-  const Attitude object = above(10.0);
+  const Pose object = above(10.0);
   EXPECT_DOUBLE_EQ(rig.viewpoint(object, flatGround(50.0), kDry).attitude.height,
                    50.0 + CameraRig::kEyeClearance);
   EXPECT_DOUBLE_EQ(rig.viewpoint(object, flatGround(-50.0), 40.0).attitude.height,
