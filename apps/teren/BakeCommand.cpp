@@ -63,7 +63,10 @@ class BakeCommand final : public Command {
         slice_(application()
                    .add_option("--slice-us", "microseconds a slice of work may take, 0: unlimited [0]")
                    ->type_name("N")),
-        output_(application().add_option("-o", "what to write, .r32 or .png")->type_name("FILE")->required()),
+        output_(application()
+                    .add_option("-o", "what to write, .r32, .png, .obj or .iv")
+                    ->type_name("FILE")
+                    ->required()),
         json_(addJson()) {}
 
   ExitCode run() override {
@@ -116,8 +119,7 @@ class BakeCommand final : public Command {
     if (interruption.came()) return fail(kWorkFailed, unfinished);
     if (!heights) return fail(kWrongInput, heights.error().message);
 
-    const auto goOn = [&] { return !interruption.came(); };
-    Result<void> written = writeHeights(heights->view(), order.format, file->stream(), goOn);
+    Result<void> written = writeShowingProgress(order, world, heights->view(), file->stream(), interruption);
     if (interruption.came()) return fail(kWorkFailed, unfinished);
     if (!written) {
       return fail(kWorkFailed,
@@ -140,6 +142,16 @@ class BakeCommand final : public Command {
       return !interruption.came();
     };
     return bake(world, order.region, options);
+  }
+
+  static Result<void> writeShowingProgress(const Order& order, const World& world, ConstHeightView heights,
+                                           std::FILE* stream, const Interruption& interruption) {
+    ProgressLine line("rows written");
+    const GroundPlace place{order.region.i, order.region.j, world.pitch(), world.spacing(order.region.level)};
+    return writeHeights(heights, order.format, place, stream, [&](std::size_t done, std::size_t wanted) {
+      line.show(done, wanted);
+      return !interruption.came();
+    });
   }
 
   void answer(const Order& order, ConstHeightView heights, double seconds) const {

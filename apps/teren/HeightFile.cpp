@@ -33,10 +33,11 @@ Error interrupted() {
   return {"interrupted"};
 }
 
-Result<void> writeR32(ConstHeightView heights, std::FILE* stream, const GoOn& goOn) {
+Result<void> writeR32(ConstHeightView heights, std::FILE* stream, const RowProgress& progress) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(heights.columns()) * 4);
   for (int row = 0; row < heights.rows(); ++row) {
-    if (!goOn()) return interrupted();
+    if (!progress(static_cast<std::size_t>(row), static_cast<std::size_t>(heights.rows())))
+      return interrupted();
     for (int column = 0; column < heights.columns(); ++column) {
       const auto sample = heightBytes(heights(column, row));
       std::copy(sample.begin(), sample.end(), bytes.begin() + static_cast<std::ptrdiff_t>(column) * 4);
@@ -92,14 +93,15 @@ class PngWriter {
   png_infop info_ = nullptr;
 };
 
-Result<void> writePng(ConstHeightView heights, std::FILE* stream, const GoOn& goOn) {
+Result<void> writePng(ConstHeightView heights, std::FILE* stream, const RowProgress& progress) {
+  const auto wanted = static_cast<std::size_t>(heights.rows());
   const HeightStatistics range = statistics(heights);
   const double scale = range.max > range.min ? 65535.0 / (range.max - range.min) : 0.0;
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(heights.columns()) * 2);
   PngWriter writer;
   if (!writer.begin(stream, heights.columns(), heights.rows())) return writer.error();
   for (int row = heights.rows() - 1; row >= 0; --row) {
-    if (!goOn()) return interrupted();
+    if (!progress(wanted - 1 - static_cast<std::size_t>(row), wanted)) return interrupted();
     for (int column = 0; column < heights.columns(); ++column) {
       const double level = std::floor((static_cast<double>(heights(column, row)) - range.min) * scale + 0.5);
       const auto grey = static_cast<std::uint32_t>(std::min(level, 65535.0));
@@ -118,8 +120,12 @@ Result<HeightFormat> heightFormat(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   if (extension == ".r32") return HeightFormat::r32;
   if (extension == ".png") return HeightFormat::png;
-  return Error{"the name " + inQuotes(file.string()) +
-               " asks for no format that can be written; end it in .r32 or .png"};
+  if (extension == ".obj") return HeightFormat::obj;
+  if (extension == ".iv") return HeightFormat::iv;
+  const std::string reason = extension == ".tif"
+                                 ? " asks for an elevation file, which needs a plugin that does not exist yet"
+                                 : " asks for no format that can be written";
+  return Error{"the name " + inQuotes(file.string()) + reason + "; end it in .r32, .png, .obj or .iv"};
 }
 
 std::uint64_t heightHash(ConstHeightView heights) noexcept {
@@ -132,8 +138,19 @@ std::uint64_t heightHash(ConstHeightView heights) noexcept {
   return hash.value();
 }
 
-Result<void> writeHeights(ConstHeightView heights, HeightFormat format, std::FILE* stream, const GoOn& goOn) {
-  return format == HeightFormat::r32 ? writeR32(heights, stream, goOn) : writePng(heights, stream, goOn);
+Result<void> writeHeights(ConstHeightView heights, HeightFormat format, const GroundPlace& place,
+                          std::FILE* stream, const RowProgress& progress) {
+  switch (format) {
+    case HeightFormat::r32:
+      return writeR32(heights, stream, progress);
+    case HeightFormat::png:
+      return writePng(heights, stream, progress);
+    case HeightFormat::obj:
+      return writeObj(heights, place, stream, progress);
+    case HeightFormat::iv:
+      break;
+  }
+  return writeInventor(heights, place, stream, progress);
 }
 
 }  // namespace teren

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
-#include <cstring>
 #include <png.h>
 #include <set>
 #include <sys/stat.h>
@@ -16,35 +15,13 @@
 
 #include "teren/Hash.h"
 
+#include "tests/apps/teren/BakedFiles.h"
 #include "tests/apps/teren/Program.h"
 
 namespace teren {
 namespace {
 
 using Json = nlohmann::json;
-
-Arguments bakeFault(const std::string& file, const Arguments& added = {}) {
-  Arguments all = {"bake", "--generator", "fault", "--seed", "9",  "--patches",
-                   "-1",   "2",           "3",     "2",      "-o", file};
-  all.insert(all.end(), added.begin(), added.end());
-  return all;
-}
-
-Json bakeJson(const std::string& file, const Arguments& added = {}) {
-  Arguments all = bakeFault(file, added);
-  all.push_back("--json");
-  const Answer answer = teren(all);
-  EXPECT_EQ(answer.exitCode, 0) << answer.complaint;
-  EXPECT_EQ(answer.complaint, "");
-  return Json::parse(answer.output);
-}
-
-std::vector<float> readR32(const std::filesystem::path& file) {
-  const std::string bytes = fileBytes(file);
-  std::vector<float> heights(bytes.size() / 4);
-  std::memcpy(heights.data(), bytes.data(), heights.size() * 4);
-  return heights;
-}
 
 /// A 16-bit grey picture, north row first.
 struct Picture {
@@ -113,8 +90,9 @@ TEST(Bake, HashesTheBytesOfItsFile) {
 TEST(Bake, GivesTheSameHashWhateverTheFormatAndTheSlices) {
   const ScratchFolder folder;
   const Json first = bakeJson(folder / "a.r32");
-  for (const Json& other : {bakeJson(folder / "a.png"), bakeJson(folder / "b.r32", {"--slice-us", "1"}),
-                            bakeJson(folder / "c.r32", {"--workers", "0"})}) {
+  for (const Json& other :
+       {bakeJson(folder / "a.png"), bakeJson(folder / "a.obj"), bakeJson(folder / "a.iv"),
+        bakeJson(folder / "b.r32", {"--slice-us", "1"}), bakeJson(folder / "c.r32", {"--workers", "0"})}) {
     EXPECT_EQ(other.at("hash"), first.at("hash"));
   }
   EXPECT_EQ(fileBytes(folder / "a.r32"), fileBytes(folder / "b.r32"));
@@ -184,7 +162,7 @@ TEST(Bake, GivesItsFileOrdinaryPermissions) {
 }
 
 TEST(Bake, LeavesNoHalfFileAndTheOldOneWhenTheDiskIsFull) {
-  for (const std::string name : {"a.r32", "a.png"}) {
+  for (const std::string name : {"a.r32", "a.png", "a.obj", "a.iv"}) {
     const ScratchFolder folder;
     folder.write(name, "old");
     Program::Settings settings;
@@ -242,6 +220,33 @@ TEST(Bake, StopsCleanlyWhenInterrupted) {
     EXPECT_TRUE(isOneSentence(answer.complaint)) << answer.complaint;
     EXPECT_NE(answer.complaint.find("interrupted"), std::string::npos) << answer.complaint;
     EXPECT_EQ(answer.output, "");
+    EXPECT_TRUE(namesIn(folder.path()).empty());
+  }
+}
+
+/// Waits until the one file in a folder holds something.
+bool waitForBytes(const std::filesystem::path& folder) {
+  for (int tries = 0; tries < 6000; ++tries) {
+    const std::vector<std::string> names = namesIn(folder);
+    std::error_code gone;
+    if (!names.empty() && std::filesystem::file_size(folder / names.front(), gone) > 0 && !gone) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+TEST(Bake, StopsCleanlyWhenInterruptedWhileItWritesTriangles) {
+  for (const std::string name : {"a.obj", "a.iv"}) {
+    const ScratchFolder folder;
+    // Quickly made, long to write: 17 million vertices.
+    Program program(
+        {"bake", "--generator", "flat", "--patches", "0", "0", "128", "128", "-o", folder / name});
+    ASSERT_TRUE(waitForBytes(folder.path()));
+    program.signal(SIGINT);
+    const Answer answer = program.finish();
+    EXPECT_EQ(answer.exitCode, 1);
+    EXPECT_TRUE(isOneSentence(answer.complaint)) << answer.complaint;
+    EXPECT_NE(answer.complaint.find("interrupted"), std::string::npos) << answer.complaint;
     EXPECT_TRUE(namesIn(folder.path()).empty());
   }
 }

@@ -153,7 +153,7 @@ TEST(CommandLine, RefusesPointsThatCannotBe) {
 }
 
 TEST(CommandLine, RefusesFormatsItDoesNotWrite) {
-  for (const std::string name : {"a.obj", "a.iv", "a.tif", "a.png.gz", "a", ".png", "png", ""}) {
+  for (const std::string name : {"a.tif", "a.wrl", "a.OBJ", "a.png.gz", "a", ".png", "png", ""}) {
     expectRefused(
         {{{"bake", "--generator", "flat", "--patches", "0", "0", "1", "1", "-o", name}, "\"" + name + "\""}});
   }
