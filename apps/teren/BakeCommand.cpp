@@ -34,6 +34,7 @@ std::string hashText(std::uint64_t hash) {
 struct Order {
   BakeRegion region;
   std::chrono::microseconds slice{0};
+  int workers = 0;
   std::filesystem::path file;
   HeightFormat format = HeightFormat::r32;
 };
@@ -59,7 +60,9 @@ class BakeCommand final : public Command {
                    .add_option("--level", "0 is finest; each level halves the samples [0]")
                    ->type_name("L")),
         workers_(
-            application().add_option("--workers", "threads that help; only 0 for now [0]")->type_name("N")),
+            application()
+                .add_option("--workers", "threads that make the landscape; 0: none but the program's own [0]")
+                ->type_name("N")),
         slice_(application()
                    .add_option("--slice-us", "microseconds a slice of work may take, 0: unlimited [0]")
                    ->type_name("N")),
@@ -94,12 +97,11 @@ class BakeCommand final : public Command {
     if (!level) return level.error();
     const Result<std::int64_t> slice = wholeOption(*slice_, 0, 0, kLongestSlice);
     if (!slice) return slice.error();
-    if (workers_->count() > 0 && wholeArgument("", argument(*workers_), 0, 0).ok() == false) {
-      return Error{"--workers is " + inQuotes(argument(*workers_)) +
-                   " but must be 0, because worker threads do not exist yet"};
-    }
+    const Result<std::int64_t> workers = wholeOption(*workers_, 0, 0, BakeOptions::kMostWorkers);
+    if (!workers) return workers.error();
     order.region = {numbers[0], numbers[1], numbers[2], numbers[3], static_cast<int>(level.value())};
     order.slice = std::chrono::microseconds(slice.value());
+    order.workers = static_cast<int>(workers.value());
     order.file = argument(*output_);
     const Result<HeightFormat> format = heightFormat(order.file);
     if (!format) return format.error();
@@ -137,6 +139,7 @@ class BakeCommand final : public Command {
     ProgressLine line("nodes");
     BakeOptions options;
     options.slice = order.slice;
+    options.workers = order.workers;
     options.progress = [&](std::size_t done, std::size_t wanted) {
       line.show(done, wanted);
       return !interruption.came();

@@ -1,7 +1,9 @@
 #include "teren/Bake.h"
 
 #include <bit>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "teren/Hash.h"
@@ -9,6 +11,7 @@
 #include "teren/Parameter.h"
 
 #include "patch/NodeTask.h"
+#include "schedule/TaskRunner.h"
 
 namespace teren {
 
@@ -66,6 +69,70 @@ void place(const HeightMap& node, const NodeKey& key, const Extent& columns, con
   copyHeights(parts.source, parts.target);
 }
 
+/// What one bake works on.
+struct Bake {
+  const World& world;
+  const BakeOptions& options;
+  const Extent& columns;
+  const Extent& rows;
+  std::vector<NodeKey> nodes;
+  HeightMap result;
+  BaseMapStore store{kBakeBytes};
+  std::size_t done = 0;
+
+  bool goesOn() const { return !options.progress || options.progress(done, nodes.size()); }
+  void finish(const NodeTask& task) {
+    place(task.heights(), task.key(), columns, rows, result);
+    ++done;
+  }
+};
+
+bool bakeHere(Bake& bake) {
+  const std::chrono::microseconds slice = bake.options.slice;
+  for (const NodeKey& key : bake.nodes) {
+    NodeTask task(bake.world, key, bake.store);
+    for (bool finished = false; !finished;) {
+      if (!bake.goesOn()) return false;
+      finished = task.step(slice.count() > 0 ? Slice::lasting(slice) : Slice::unlimited());
+    }
+    bake.finish(task);
+  }
+  return true;
+}
+
+/// Neighbours share base maps, so each worker had better have a stretch of the list to itself: the first
+/// nodes of all stretches, then the second ones, and so on.
+std::vector<NodeKey> inStretches(const std::vector<NodeKey>& nodes, std::size_t stretches) {
+  const std::size_t length = (nodes.size() + stretches - 1) / stretches;
+  std::vector<NodeKey> ordered;
+  ordered.reserve(nodes.size());
+  for (std::size_t k = 0; k < length; ++k) {
+    for (std::size_t node = k; node < nodes.size(); node += length) ordered.push_back(nodes[node]);
+  }
+  return ordered;
+}
+
+/// A task holds its node's heights, so only a few are on their way at a time.
+bool bakeOnWorkers(Bake& bake) {
+  constexpr std::chrono::milliseconds kBetweenReports(100);
+  constexpr std::size_t kTasksAWorker = 4;
+  const auto workers = static_cast<std::size_t>(bake.options.workers);
+  const std::vector<NodeKey> nodes = inStretches(bake.nodes, workers);
+  TaskRunner runner(bake.options.workers);
+  std::size_t begun = 0;
+  while (bake.done < nodes.size()) {
+    if (!bake.goesOn()) return false;
+    for (; begun < nodes.size() && begun < bake.done + workers * kTasksAWorker; ++begun) {
+      runner.submit(std::make_unique<NodeTask>(bake.world, nodes[begun], bake.store), 0);
+    }
+    runner.waitForFinished(kBetweenReports);
+    for (const TaskRunner::Finished& finished : runner.takeFinished()) {
+      bake.finish(static_cast<const NodeTask&>(*finished.task));
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<HeightMap> bake(const World& world, const BakeRegion& region, const BakeOptions& options) {
@@ -82,23 +149,21 @@ Result<HeightMap> bake(const World& world, const BakeRegion& region, const BakeO
     return Error{"the region has " + std::to_string(columns->count) + " x " + std::to_string(rows->count) +
                  " samples, more than the 2^28 that one bake may have"};
   }
-  HeightMap result(static_cast<int>(columns->count), static_cast<int>(rows->count));
-  std::vector<NodeKey> nodes =
-      coveringNodes(*columns, *rows, region.level, std::countr_zero(static_cast<unsigned>(n)));
-  if (options.visitSeed != 0) shuffle(nodes, options.visitSeed);
-  BaseMapStore store(kBakeBytes);
-  std::size_t done = 0;
-  for (const NodeKey& key : nodes) {
-    NodeTask task(world, key, store);
-    for (bool finished = false; !finished;) {
-      if (options.progress && !options.progress(done, nodes.size())) return Error{"cancelled"};
-      finished = task.step(options.slice.count() > 0 ? Slice::lasting(options.slice) : Slice::unlimited());
-    }
-    place(task.heights(), key, *columns, *rows, result);
-    ++done;
+  if (options.workers < 0 || options.workers > BakeOptions::kMostWorkers) {
+    return Error{"the workers are " + std::to_string(options.workers) + ", expected 0 to " +
+                 std::to_string(BakeOptions::kMostWorkers)};
   }
-  if (options.progress) options.progress(done, nodes.size());
-  return result;
+  Bake bake{world,
+            options,
+            *columns,
+            *rows,
+            coveringNodes(*columns, *rows, region.level, std::countr_zero(static_cast<unsigned>(n))),
+            HeightMap(static_cast<int>(columns->count), static_cast<int>(rows->count))};
+  if (options.visitSeed != 0) shuffle(bake.nodes, options.visitSeed);
+  const bool finished = options.workers == 0 ? bakeHere(bake) : bakeOnWorkers(bake);
+  if (!finished) return Error{"cancelled"};
+  if (options.progress) options.progress(bake.done, bake.nodes.size());
+  return std::move(bake.result);
 }
 
 }  // namespace teren

@@ -20,18 +20,23 @@ struct BakeRegion {
 };
 
 struct BakeOptions {
-  /// How long a slice of work may be; zero: unlimited. The heights do not depend on it.
+  /// How long a slice of work may be; zero: unlimited. Workers slice as they like. The heights do not depend
+  /// on it.
   std::chrono::microseconds slice{0};
+  /// Threads that make the nodes, 0 ... kMostWorkers; 0: the caller's own. The heights do not depend on it.
+  int workers = 0;
+  static constexpr int kMostWorkers = 64;
   /// 0: nodes are visited row by row; otherwise in an order shuffled with this seed. The heights do not
   /// depend on it.
   std::uint64_t visitSeed = 0;
-  /// Called between slices; returning false cancels.
+  /// Called by the calling thread between slices, or ten times a second while workers work; returning false
+  /// cancels.
   std::function<bool(std::size_t nodesDone, std::size_t nodesWanted)> progress;
 };
 
 /// (columns n / 2^level + 1) x (rows n / 2^level + 1) heights [m] as drawn at that level, rows from south to
-/// north. Refuses regions that break the rule above, lie beyond kMaxPatch or have more than 2^28 samples;
-/// "cancelled" where progress returned false.
+/// north. Refuses regions that break the rule above, lie beyond kMaxPatch or have more than 2^28 samples, and
+/// workers out of range; "cancelled" where progress returned false.
 Result<HeightMap> bake(const World& world, const BakeRegion& region, const BakeOptions& options = {});
 
 }  // namespace teren

@@ -9,6 +9,7 @@
 #include <set>
 #include <sys/stat.h>
 #include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -87,15 +88,19 @@ TEST(Bake, HashesTheBytesOfItsFile) {
   EXPECT_EQ(answer.at("hash"), digits);
 }
 
-TEST(Bake, GivesTheSameHashWhateverTheFormatAndTheSlices) {
+TEST(Bake, GivesTheSameHashWhateverTheFormatTheSlicesAndTheWorkers) {
   const ScratchFolder folder;
   const Json first = bakeJson(folder / "a.r32");
   for (const Json& other :
        {bakeJson(folder / "a.png"), bakeJson(folder / "a.obj"), bakeJson(folder / "a.iv"),
-        bakeJson(folder / "b.r32", {"--slice-us", "1"}), bakeJson(folder / "c.r32", {"--workers", "0"})}) {
+        bakeJson(folder / "b.r32", {"--slice-us", "1"}), bakeJson(folder / "c.r32", {"--workers", "0"}),
+        bakeJson(folder / "d.r32", {"--workers", "1"}), bakeJson(folder / "e.r32", {"--workers", "3"}),
+        bakeJson(folder / "f.r32", {"--workers", "64"})}) {
     EXPECT_EQ(other.at("hash"), first.at("hash"));
   }
-  EXPECT_EQ(fileBytes(folder / "a.r32"), fileBytes(folder / "b.r32"));
+  for (const char* name : {"b.r32", "d.r32", "e.r32", "f.r32"}) {
+    EXPECT_EQ(fileBytes(folder / "a.r32"), fileBytes(folder / name)) << name;
+  }
 }
 
 TEST(Bake, WritesThePictureNorthUpFromLowestToHighest) {
@@ -208,11 +213,11 @@ bool waitForAFile(const std::filesystem::path& folder) {
 }
 
 TEST(Bake, StopsCleanlyWhenInterrupted) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const auto& [signal, workers] : {std::pair{SIGINT, "0"}, {SIGTERM, "0"}, {SIGINT, "2"}}) {
     const ScratchFolder folder;
     // Minutes of work, if nobody stopped it.
     Program program({"bake", "--generator", "fault", "--set", "faults=5000", "--patches", "0", "0", "200",
-                     "200", "-o", folder / "a.r32"});
+                     "200", "--workers", workers, "-o", folder / "a.r32"});
     ASSERT_TRUE(waitForAFile(folder.path()));
     program.signal(signal);
     const Answer answer = program.finish();

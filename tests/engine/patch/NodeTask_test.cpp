@@ -135,6 +135,21 @@ TEST(Bake, GivesTheSameBitsForAnyOrderOfVisitsAndSlicing) {
   EXPECT_TRUE(sameBits(*plain, *shuffled));
 }
 
+TEST(Bake, GivesTheSameBitsForAnyNumberOfWorkers) {
+  const auto world = mixedWorld();
+  const BakeRegion region{-3, 2, 24, 12, 1};
+  const auto plain = bake(*world, region);
+  ASSERT_TRUE(plain.ok());
+  for (const int workers : {1, 3, 64}) {
+    BakeOptions options;
+    options.workers = workers;
+    options.visitSeed = static_cast<std::uint64_t>(workers);
+    const auto shared = bake(*world, region, options);
+    ASSERT_TRUE(shared.ok());
+    EXPECT_TRUE(sameBits(*plain, *shared)) << workers << " workers";
+  }
+}
+
 TEST(Bake, AcceptsRegionsThatBeginInsideANode) {
   const auto world = mixedWorld();
   const auto whole = bake(*world, {-8, -8, 16, 16, 3});
@@ -160,15 +175,25 @@ TEST(Bake, RefusesWhatDoesNotFit) {
   refused({kMaxPatch, 0, 1, 1, 0}, "beyond");
   refused({0, 0, std::int64_t{1} << 40, 1, 0}, "2^28");
   refused({0, 0, std::int64_t{1} << 62, 1, 0}, "beyond");
+  for (const int workers : {-1, BakeOptions::kMostWorkers + 1}) {
+    BakeOptions options;
+    options.workers = workers;
+    const auto result = bake(*world, {0, 0, 1, 1, 0}, options);
+    ASSERT_FALSE(result.ok());
+    EXPECT_NE(result.error().message.find("workers are " + std::to_string(workers)), std::string::npos);
+  }
 }
 
 TEST(Bake, StopsWhenProgressSaysSo) {
   const auto world = mixedWorld();
-  BakeOptions options;
-  options.progress = [](std::size_t done, std::size_t) { return done < 2; };
-  const auto result = bake(*world, {0, 0, 4, 4, 0}, options);
-  ASSERT_FALSE(result.ok());
-  EXPECT_EQ(result.error().message, "cancelled");
+  for (const int workers : {0, 2}) {
+    BakeOptions options;
+    options.workers = workers;
+    options.progress = [](std::size_t done, std::size_t) { return done < 2; };
+    const auto result = bake(*world, {0, 0, 8, 8, 0}, options);
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().message, "cancelled");
+  }
 }
 
 }  // namespace
