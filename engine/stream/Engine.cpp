@@ -174,6 +174,9 @@ std::shared_ptr<const Scene> Engine::scene() const noexcept {
 std::optional<double> Engine::drawnHeight(const Position& position) const {
   return state_->drawnHeight(position);
 }
+std::optional<double> Engine::finestHeight(const Position& position) const {
+  return state_->streamer.nodes().height(position, 0);
+}
 const Ground& Engine::ground() const noexcept {
   return *state_;
 }

@@ -83,6 +83,9 @@ class Engine {
 
   /// [m] The triangles on the screen at a position; empty where nothing is drawn.
   std::optional<double> drawnHeight(const Position& position) const;
+  /// [m] The level-0 triangles at a position, as they are kept under objects: World::query's `drawn`, bit for
+  /// bit. Empty where they are not there.
+  std::optional<double> finestHeight(const Position& position) const;
   /// What objects see: see Ground.
   const Ground& ground() const noexcept;
 

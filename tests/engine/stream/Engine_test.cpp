@@ -206,6 +206,19 @@ TEST_P(EngineWithWorkers, HasFinestGroundUnderEveryObject) {
   EXPECT_EQ(*flight.engine->ground().height(sample), static_cast<float>(flight.world->height(sample)));
 }
 
+TEST_P(EngineWithWorkers, KeepsFinestGroundWithTheBitsOfAQuery) {
+  Flight flight(GetParam(), {3, 1}, {-7, 12, 0.4, 0.6});
+  EXPECT_FALSE(flight.engine->finestHeight({-7, 12, 0.4, 0.6}).has_value());
+  flight.engine->settle();
+  EXPECT_FALSE(flight.engine->finestHeight({-4, 12, 0.4, 0.6}).has_value());  // drawn, but at level 3 only
+  for (int k = 0; k < 200; ++k) {
+    const Position place{-7, 12, k / 200.0, (k * 73 % 200) / 200.0};
+    const auto finest = flight.engine->finestHeight(place);
+    ASSERT_TRUE(finest.has_value());
+    ASSERT_EQ(*finest, flight.world->query(place).drawn) << place.u << ", " << place.v;
+  }
+}
+
 TEST_P(EngineWithWorkers, GroundIsNeitherBelowTheFinestNorBelowTheDrawnTriangles) {
   Flight flight(GetParam(), {3, 1});
   flight.engine->settle();
