@@ -44,11 +44,8 @@ Result<std::string> readFile(const CLI::Option& option) {
 }  // namespace
 
 FlyCommandLine::FlyCommandLine(CLI::App& application)
-    : viewDistance_(application
-                        .add_option("--view-distance",
-                                    "metres of land to draw in every direction at "
-                                    "least; sets --radius [2560]")
-                        ->type_name("M")),
+    : viewDistance_(addViewDistance(
+          application, "metres of land to draw in every direction at least; sets --radius [2560]")),
       viewLevel_(
           application.add_option("--view-level", "level of the land, 0 is finest [3]")->type_name("L")),
       radius_(application.add_option("--radius", "nodes to draw in every direction, 1 to 64 [5]")
@@ -72,13 +69,10 @@ Result<ViewSettings> FlyCommandLine::view(const World& world) const {
   const Result<int> radius = readWhole(*radius_, view.radius, 1, kMaxRadius);
   if (!radius) return radius.error();
   view.radius = *radius;
-  if (viewDistance_->count() == 0) return view;
-  if (radius_->count() > 0) return Error{"--view-distance and --radius exclude each other"};
-  const double farthest = ViewSettings{view.level, kMaxRadius}.reach(world);
-  const Result<double> distance = readNumber(*viewDistance_, 0.0, 1.0, farthest);
-  if (!distance) return Error{distance.error().message + " at level " + std::to_string(view.level)};
-  view.radius = ViewSettings::radiusFor(*distance, view.level, world);
-  return view;
+  if (viewDistance_->count() > 0 && radius_->count() > 0) {
+    return Error{"--view-distance and --radius exclude each other"};
+  }
+  return viewReaching(*viewDistance_, view, world);
 }
 
 Result<FlyOptions> FlyCommandLine::resolve(const World& world) const {

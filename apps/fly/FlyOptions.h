@@ -10,13 +10,13 @@
 #include "teren/Engine.h"
 #include "teren/Result.h"
 
+#include "apps/options/ViewOptions.h"
+
 namespace teren {
 
 /// What remains once the world is known (see options/WorldOptions.h).
 struct FlyOptions {
-  /// One level coarser than the engine's own default: farther for fewer triangles, and from the height of
-  /// flight the shading hides the difference. A radius of 6 costs about a fifth more of a frame.
-  ViewSettings view{.level = 3, .radius = 5};
+  ViewSettings view = kFlyingView;
   double speed = 60.0;  ///< [m/s]
   QSize size{1280, 720};
   std::optional<double> seconds;  ///< how long to fly; empty: until the person quits
