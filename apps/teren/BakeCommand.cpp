@@ -1,7 +1,6 @@
 // teren bake WORLD --patches I J COLUMNS ROWS [--level L] ... -o FILE: a piece of landscape as a file.
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <optional>
 
@@ -23,12 +22,6 @@ namespace {
 
 constexpr std::int64_t kLongestSlice = 1'000'000'000;  // [us]
 constexpr std::int64_t kHighestLevel = 60;
-
-std::string hashText(std::uint64_t hash) {
-  std::array<char, 17> digits{};
-  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return digits.data();
-}
 
 /// What was asked for, checked as far as the command line alone tells.
 struct Order {
@@ -159,7 +152,7 @@ class BakeCommand final : public Command {
 
   void answer(const Order& order, ConstHeightView heights, double seconds) const {
     const HeightStatistics figures = statistics(heights);
-    const std::string hash = hashText(heightHash(heights));
+    const std::string hash = hashDigits(heightHash(heights));
     if (json_->count() > 0) {
       printJson({{"samples", {heights.columns(), heights.rows()}},
                  {"min", figures.min},

@@ -51,5 +51,6 @@ std::unique_ptr<Command> makePluginsCommand(CLI::App& parent);
 std::unique_ptr<Command> makeDescribeCommand(CLI::App& parent);
 std::unique_ptr<Command> makeBakeCommand(CLI::App& parent);
 std::unique_ptr<Command> makeQueryCommand(CLI::App& parent);
+std::unique_ptr<Command> makeFlightCommand(CLI::App& parent);
 
 }  // namespace teren

@@ -1,6 +1,7 @@
 #include "apps/teren/Interruption.h"
 
 #include <array>
+#include <atomic>
 #include <csignal>
 
 namespace teren {
@@ -8,17 +9,19 @@ namespace {
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ};
 
-volatile std::sig_atomic_t signalCame = 0;
+// A worker thread may be the one that the signal interrupts.
+std::atomic<bool> signalCame = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a handler may only set what needs no lock");
 std::array<struct sigaction, kSignals.size()> formerActions;
 
 void note(int) {
-  signalCame = 1;
+  signalCame = true;
 }
 
 }  // namespace
 
 Interruption::Interruption() {
-  signalCame = 0;
+  signalCame = false;
   for (std::size_t k = 0; k < kSignals.size(); ++k) {
     sigaction(kSignals[k], nullptr, &formerActions[k]);
     if (formerActions[k].sa_handler == SIG_IGN) continue;  // nohup and the like mean it
@@ -35,7 +38,7 @@ Interruption::~Interruption() {
 }
 
 bool Interruption::came() const noexcept {
-  return signalCame != 0;
+  return signalCame;
 }
 
 }  // namespace teren

@@ -39,6 +39,7 @@ int main(int argumentCount, char** arguments) {
   commands.push_back(teren::makeDescribeCommand(application));
   commands.push_back(teren::makeBakeCommand(application));
   commands.push_back(teren::makeQueryCommand(application));
+  commands.push_back(teren::makeFlightCommand(application));
   application.require_subcommand(0, 1);
 
   if (const auto code = teren::parseCommandLine(application, argumentCount, arguments)) {
@@ -48,5 +49,5 @@ int main(int argumentCount, char** arguments) {
     if (command->chosen()) return finish(application, run(application, *command));
   }
   return teren::fail(application, teren::kWrongInput,
-                     "a command is missing: plugins, describe, bake or query (see teren --help)");
+                     "a command is missing: plugins, describe, bake, query or flight (see teren --help)");
 }

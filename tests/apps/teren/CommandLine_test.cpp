@@ -153,6 +153,48 @@ TEST(CommandLine, RefusesPointsThatCannotBe) {
                  {query({"0", "1 "}), "\"1 \""}});
 }
 
+TEST(CommandLine, RefusesFlightsThatCannotBe) {
+  const auto flight = [](const Arguments& added) {
+    Arguments all = {"flight", "--generator", "flat", "--seconds", "0.1", "--fast"};
+    all.insert(all.end(), added.begin(), added.end());
+    return all;
+  };
+  expectRefused({{flight({"--speed", "-1"}), "--speed is \"-1\""},
+                 {flight({"--speed", "nan"}), "\"nan\""},
+                 {flight({"--speed", "1e6"}), "--speed is \"1e6\""},
+                 {flight({"--speed"}), "--speed"},
+                 {{"flight", "--seconds", "0"}, "--seconds is \"0\""},
+                 {{"flight", "--seconds", "-5"}, "--seconds is \"-5\""},
+                 {{"flight", "--seconds", "100000"}, "--seconds is \"100000\""},
+                 {{"flight", "--seconds", "soon"}, "\"soon\""},
+                 {flight({"--objects", "0"}), "--objects is \"0\""},
+                 {flight({"--objects", "1.5"}), "--objects is \"1.5\""},
+                 {flight({"--objects", "1001"}), "--objects is \"1001\""},
+                 {flight({"--start", "1"}), "--start"},
+                 {flight({"--start", "1", "2", "3"}), "3"},
+                 {flight({"--start", "here", "2"}), "X of --start"},
+                 {flight({"--start", "1", "nan"}), "Y of --start"},
+                 {flight({"--start", "1e300", "0"}), "--start: x = 1e+300"},
+                 {flight({"--start", "0", "288230376151711743", "--objects", "9"}), "beyond the world"},
+                 {flight({"--path", "sideways"}), "--path is \"sideways\""},
+                 {flight({"--path", ""}), "--path is \"\""},
+                 {flight({"--view-distance", "0"}), "--view-distance is \"0\""},
+                 {flight({"--view-distance", "1e12"}), "--view-distance is \"1e12\""},
+                 {flight({"--pixel-error", "4"}), "--pixel-error"},
+                 {flight({"--workers", "-1"}), "--workers is \"-1\""},
+                 {flight({"--workers", "65"}), "--workers is \"65\""},
+                 {flight({"--budget-us", "0"}), "--budget-us is \"0\""},
+                 {flight({"--budget-us", "1e3"}), "--budget-us is \"1e3\""},
+                 {flight({"--budget-us", "1000001"}), "--budget-us is \"1000001\""},
+                 {flight({"--cap-mib", "7"}), "--cap-mib is \"7\""},
+                 {flight({"--cap-mib", "9999999"}), "--cap-mib is \"9999999\""},
+                 {flight({"--cap-mib", "8", "--samples", "1025"}), "cap"},
+                 {flight({"--edits", "edits.db"}), "--edits"},
+                 {flight({"--fast=no"}), "fast"},
+                 {flight({"--set", "height=1e9"}), "--set"},
+                 {flight({"elsewhere"}), "elsewhere"}});
+}
+
 TEST(CommandLine, RefusesFormatsItDoesNotWrite) {
   for (const std::string name : {"a.tif", "a.wrl", "a.OBJ", "a.png.gz", "a", ".png", "png", ""}) {
     expectRefused(

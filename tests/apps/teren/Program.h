@@ -58,6 +58,20 @@ class Program {
 
   void signal(int number) const { kill(process_, number); }
 
+  /// Waits until the program has taken this signal into its own hands.
+  bool waitUntilItCatches(int number) const {
+    const std::string status = "/proc/" + std::to_string(process_) + "/status";
+    for (int tries = 0; tries < 6000; ++tries) {
+      const std::string text = fileBytes(status);
+      const std::size_t caught = text.find("SigCgt:");
+      if (caught == std::string::npos) return false;
+      const auto mask = std::stoull(text.substr(caught + 7), nullptr, 16);
+      if ((mask >> static_cast<unsigned>(number - 1) & 1U) != 0) return true;
+      usleep(10'000);
+    }
+    return false;
+  }
+
   Answer finish() {
     int status = 0;
     waitpid(process_, &status, 0);

@@ -1,0 +1,140 @@
+#include "apps/teren/MeasuredFlight.h"
+
+#include <algorithm>
+#include <bit>
+#include <ctime>
+#include <fstream>
+#include <thread>
+#include <tuple>
+#include <unistd.h>
+#include <utility>
+
+namespace teren {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kStep = 1.0 / static_cast<double>(kUpdatesPerSecond);  // [s]
+
+std::chrono::nanoseconds threadTime() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+std::size_t residentBytes() {
+  std::size_t program = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> program >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+void addHeight(Fnv1a& hash, double height) {
+  const auto bits = std::bit_cast<std::uint64_t>(height == 0.0 ? 0.0 : height);
+  for (unsigned shift = 0; shift < 64; shift += 8) hash.addByte(static_cast<std::uint8_t>(bits >> shift));
+}
+
+/// Place `index` of a square spiral: (0, 0), (1, 0), (1, 1), (0, 1), (-1, 1) ...
+std::pair<int, int> spiral(int index) {
+  int x = 0, y = 0, stepX = 1, stepY = 0;
+  for (int length = 1, gone = 0, sides = 0; index > 0; --index) {
+    x += stepX, y += stepY;
+    if (++gone < length) continue;
+    gone = 0;
+    std::tie(stepX, stepY) = std::pair(-stepY, stepX);
+    if (++sides % 2 == 0) ++length;
+  }
+  return {x, y};
+}
+
+Result<std::unique_ptr<Object>> makeObject(const FlightPlan& plan, int index, const World& world) {
+  const auto [east, north] = spiral(index);
+  const Result<Position> start =
+      plan.start.movedBy(east * kObjectDistance, north * kObjectDistance, world.pitch());
+  if (!start) return start.error();
+  Course course;
+  course.start = *start;
+  course.height = world.query(*start).drawn + kFlightClearance;
+  course.speed = plan.speed;
+  course.pitch = world.pitch();
+  const Result<std::shared_ptr<const Script>> script =
+      plan.path == FlightPath::straight ? straightScript(course) : turnsScript(course);
+  if (!script) return script.error();
+  return std::unique_ptr<Object>(
+      std::make_unique<ScriptedObject>(*script, ScriptedObjectOptions{.clearance = kFlightClearance}));
+}
+
+}  // namespace
+
+MeasuredFlight::MeasuredFlight(std::shared_ptr<const World> world, const FlightPlan& plan)
+    : world_(std::move(world)),
+      plan_(plan),
+      cpu_(static_cast<std::size_t>(plan.updates)),
+      wall_(static_cast<std::size_t>(plan.updates)),
+      spinner_(static_cast<std::size_t>(plan.updates)) {}
+
+Result<std::unique_ptr<MeasuredFlight>> MeasuredFlight::create(std::shared_ptr<const World> world,
+                                                               const FlightPlan& plan) {
+  std::unique_ptr<MeasuredFlight> flight(new MeasuredFlight(world, plan));
+  Result<std::unique_ptr<Engine>> engine = Engine::create(world, plan.engine);
+  if (!engine) return engine.error();
+  flight->engine_ = std::move(*engine);
+  for (int index = 0; index < plan.objects; ++index) {
+    Result<std::unique_ptr<Object>> object = makeObject(plan, index, *world);
+    if (!object) return object.error();
+    flight->engine_->add(std::move(*object));
+  }
+  return flight;
+}
+
+FlightResult MeasuredFlight::fly(const std::function<bool(std::int64_t, std::int64_t)>& progress) {
+  constexpr std::chrono::nanoseconds kFrame(std::chrono::nanoseconds(std::chrono::seconds(1)) /
+                                            kUpdatesPerSecond);
+  Clock::time_point next = Clock::now();
+  for (std::int64_t done = 0; done < plan_.updates && progress(done, plan_.updates); ++done) {
+    next += kFrame;
+    update();
+    lookAtGround(done);
+    if (!plan_.paced || done % kUpdatesPerSecond == 0 || Clock::now() + plan_.budget < next) spin();
+    if (!plan_.paced) continue;
+    std::this_thread::sleep_until(next);
+    next = std::max(next, Clock::now() - kFrame);  // what is lost is not made up for by haste
+  }
+  result_.cpu = cpu_.percentiles();
+  result_.wall = wall_.percentiles();
+  result_.spinner = spinner_.percentiles();
+  result_.engine = engine_->figures();
+  result_.hash = hash_.value();
+  result_.residentBytes = residentBytes();
+  return result_;
+}
+
+void MeasuredFlight::update() {
+  const Clock::time_point start = Clock::now();
+  const std::chrono::nanoseconds used = threadTime();
+  engine_->update(kStep, plan_.budget);
+  cpu_.add(threadTime() - used);
+  wall_.add(Clock::now() - start);
+}
+
+void MeasuredFlight::lookAtGround(std::int64_t update) {
+  bool missing = false;
+  for (std::size_t index = 0; index < engine_->objectCount(); ++index) {
+    const Position position = engine_->object(index).motion().position;
+    const std::optional<double> ground = engine_->finestHeight(position);
+    missing = missing || !ground;
+    addHeight(hash_, ground ? *ground : world_->query(position).drawn);
+  }
+  if (missing && update >= kUpdatesPerSecond) ++result_.missing;
+  result_.updates = update + 1;
+  if (result_.updates == 30 * kUpdatesPerSecond) result_.hashAt30Seconds = hash_.value();
+  if (result_.updates == 60 * kUpdatesPerSecond) result_.residentAt60Seconds = residentBytes();
+}
+
+void MeasuredFlight::spin() {
+  const Clock::time_point start = Clock::now();
+  Clock::time_point now = start;
+  while (now - start < plan_.budget) now = Clock::now();
+  spinner_.add(now - start);
+}
+
+}  // namespace teren
