@@ -419,4 +419,7 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
   for (const teren::Mesh* mesh : meshes) private_->drawnTriangles += mesh->indices->size() / 3;
   const auto context = static_cast<std::uint32_t>(SoGLCacheContextElement::get(state));
   private_->renderer.draw(context, picture, meshes);
+  if (private_->source.engine() != nullptr) {
+    private_->source.engine()->setRendererBytes(private_->renderer.bytes());
+  }
 }

@@ -99,7 +99,8 @@ class SoTerrain : public SoNode {
   /// One sentence about what is wrong with the fields; empty where nothing is.
   const SbString& errorText();
 
-  /// Bytes of all vertex and index buffers the node holds in all GL contexts.
+  /// Bytes of all vertex and index buffers the node holds in all GL contexts. The node's own engine hears of
+  /// them by itself; a program with an engine of its own passes them on to Engine::setRendererBytes().
   std::size_t bufferBytes() const;
   /// Triangles of ground drawn by the last GL traversal, after culling.
   std::size_t drawnTriangles() const;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -383,6 +384,18 @@ TEST(SoTerrain, FillsItsViewFromItsOwnTimerFollowsTheEyeAndRests) {
   for (int turn = 0; turn < 50; ++turn) processSensors();
   EXPECT_EQ(engine->figures().lastUpdate, last)
       << "an update although nothing was missing and nothing had moved";
+}
+
+TEST(SoTerrain, TellsItsEngineWhatItHoldsOnTheGraphicsCard) {
+  const Stage stage;
+  makeSmall(*stage.terrain);
+  stage.terrain->settle();
+  const std::size_t before = stage.terrain->engine()->figures().bytes;
+  OffscreenView view(64, 48);
+  stage.camera->position = SbVec3f(0.0F, 0.0F, 600.0F);  // Inventor's camera looks down by itself
+  view.draw(stage.root, kMagenta);
+  ASSERT_GT(stage.terrain->bufferBytes(), 0U);
+  EXPECT_EQ(stage.terrain->engine()->figures().bytes, before + stage.terrain->bufferBytes());
 }
 
 }  // namespace
