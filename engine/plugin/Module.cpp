@@ -12,6 +12,7 @@
 
 #include "plugin/SharedObject.h"
 #include "plugin/TableCheck.h"
+#include "plugin/Thrown.h"
 
 namespace teren {
 namespace {
@@ -51,7 +52,7 @@ Result<const PluginDescription*> callEntryPoint(void* symbol) {
     return reinterpret_cast<PluginEntryPoint>(symbol)();
   } catch (const std::exception& exception) {
     return Error{std::string("its function ") + kPluginEntryPoint +
-                 " threw: " + shortened(exception.what(), kSentenceBytes)};
+                 " threw: " + shortened(textOf(exception), kSentenceBytes)};
   } catch (...) {
     return Error{std::string("its function ") + kPluginEntryPoint + " threw something"};
   }

@@ -13,6 +13,7 @@ namespace {
 
 /// Up to here a double holds every integer.
 constexpr std::int64_t kLargestInteger = std::int64_t{1} << 53;
+constexpr std::size_t kListBytes = 400;  // of the names a sentence offers
 
 const Parameter* findParameter(std::span<const Parameter> table, std::string_view name) {
   const auto found =
@@ -40,11 +41,11 @@ std::string expectation(const Parameter& row) {
     case ParameterType::choice:
       break;
   }
-  std::string list = "one of ";
+  std::string list;
   for (std::size_t k = 0; k < row.choices.size(); ++k) {
     list += (k == 0 ? "" : ", ") + std::string(row.choices[k]);
   }
-  return list;
+  return "one of " + shortened(list, kListBytes);
 }
 
 /// The value in the row's own type and inside its range, or nothing.
@@ -99,9 +100,9 @@ std::optional<ParameterValue> checkedValue(const Parameter& row, const Parameter
 Error unknownParameter(std::span<const Parameter> table, std::string_view name, std::string_view owner) {
   std::string message = shortened(owner) + " has no parameter " + inQuotes(name);
   if (table.empty()) return {message + "; it has none at all"};
-  message += "; it has ";
-  for (std::size_t k = 0; k < table.size(); ++k) message += (k == 0 ? "" : ", ") + std::string(table[k].name);
-  return {message};
+  std::string list;
+  for (std::size_t k = 0; k < table.size(); ++k) list += (k == 0 ? "" : ", ") + std::string(table[k].name);
+  return {message + "; it has " + shortened(list, kListBytes)};
 }
 
 /// A typed text as the value the row wants, as far as its form tells; ranges are Values::check's affair.

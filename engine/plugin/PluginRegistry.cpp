@@ -10,6 +10,7 @@
 #include "teren/Quote.h"
 
 #include "plugin/Module.h"
+#include "plugin/Thrown.h"
 
 namespace teren {
 namespace {
@@ -58,7 +59,7 @@ Result<std::shared_ptr<const Base>> callMaker(std::unique_ptr<Base> (*make)(cons
     return made;
   } catch (const std::exception& exception) {
     return Error{"plugin " + inQuotes(id) +
-                 " refuses its parameters: " + shortened(exception.what(), kSentenceBytes)};
+                 " refuses its parameters: " + shortened(textOf(exception), kSentenceBytes)};
   } catch (...) {
     return Error{"plugin " + inQuotes(id) + " refuses its parameters without saying why"};
   }
@@ -147,7 +148,8 @@ Result<const PluginDescription*> PluginRegistry::describe(std::string_view id, P
   for (const PluginInfo& plugin : plugins_) {
     if (plugin.kind == kind) known += (known.empty() ? "" : ", ") + plugin.id;
   }
-  const std::string list = known.empty() ? "; there are none" : "; there are " + known;
+  const std::string list =
+      known.empty() ? "; there are none" : "; there are " + shortened(known, kSentenceBytes);
   if (info != nullptr) {
     return Error{"plugin " + inQuotes(id) + " is a " + kindName(info->kind) + ", not a " + kindName(kind) +
                  list};

@@ -13,6 +13,14 @@ bool isLetter(char c) {
   return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
 }
 
+/// A text a message or a person can be shown as it is. A null pointer with a length is a text nobody may
+/// read, so it is refused before anything looks at the first letter.
+bool isLine(std::string_view text, std::size_t bytes) {
+  if (text.data() == nullptr) return text.empty();
+  return text.size() <= bytes && shortened(text, bytes) == text;
+}
+
+/// Of texts that isLine has accepted.
 bool isName(std::string_view name) {
   if (name.empty() || !isLetter(name.front())) return false;
   return std::all_of(name.begin(), name.end(),
@@ -21,6 +29,10 @@ bool isName(std::string_view name) {
 
 bool isWholeAndExact(double value) {
   return std::floor(value) == value && std::fabs(value) <= 0x1p53;
+}
+
+std::string notALine(std::size_t bytes) {
+  return "is not one line of readable text of at most " + std::to_string(bytes) + " bytes";
 }
 
 Result<void> checkNumber(const Parameter& row) {
@@ -42,7 +54,17 @@ Result<void> checkNumber(const Parameter& row) {
 }
 
 Result<void> checkChoice(const Parameter& row) {
-  if (row.choices.empty()) return Error{"parameter " + inQuotes(row.name) + " has no choices"};
+  if (row.choices.data() == nullptr || row.choices.empty()) {
+    return Error{"parameter " + inQuotes(row.name) + " has no choices"};
+  }
+  if (row.choices.size() > kMostChoices) {
+    return Error{"parameter " + inQuotes(row.name) + " has " + std::to_string(row.choices.size()) +
+                 " choices, at most " + std::to_string(kMostChoices) + " are allowed"};
+  }
+  const bool lines = isLine(row.defaultChoice, kNameBytes) &&
+                     std::all_of(row.choices.begin(), row.choices.end(),
+                                 [](std::string_view choice) { return isLine(choice, kNameBytes); });
+  if (!lines) return Error{"a choice of parameter " + inQuotes(row.name) + " " + notALine(kNameBytes)};
   for (std::size_t k = 0; k < row.choices.size(); ++k) {
     const auto first = std::find(row.choices.begin(), row.choices.end(), row.choices[k]);
     if (row.choices[k].empty() || first != row.choices.begin() + static_cast<std::ptrdiff_t>(k)) {
@@ -57,7 +79,11 @@ Result<void> checkChoice(const Parameter& row) {
   return {};
 }
 
-Result<void> checkRow(const Parameter& row) {
+Result<void> checkRow(const Parameter& row, std::size_t number) {
+  const std::string place = " of row " + std::to_string(number) + " of the table ";
+  if (!isLine(row.name, kNameBytes)) return Error{"the name" + place + notALine(kNameBytes)};
+  if (!isLine(row.unit, kNameBytes)) return Error{"the unit" + place + notALine(kNameBytes)};
+  if (!isLine(row.doc, kDocBytes)) return Error{"the documentation" + place + notALine(kDocBytes)};
   if (!isName(row.name)) {
     return Error{"the parameter name " + inQuotes(row.name) +
                  " is not made of letters, digits, '-' and '_', a letter first"};
@@ -81,8 +107,11 @@ Result<void> checkTable(std::span<const Parameter> table) {
     return Error{"the table has " + std::to_string(table.size()) + " parameters, at most " +
                  std::to_string(kMostParameters) + " are allowed"};
   }
+  if (table.data() == nullptr && !table.empty()) {
+    return Error{"the table has " + std::to_string(table.size()) + " parameters at no address"};
+  }
   for (std::size_t k = 0; k < table.size(); ++k) {
-    if (Result<void> row = checkRow(table[k]); !row) return row;
+    if (Result<void> row = checkRow(table[k], k + 1); !row) return row;
     const bool repeated =
         std::any_of(table.begin(), table.begin() + static_cast<std::ptrdiff_t>(k),
                     [&](const Parameter& earlier) { return earlier.name == table[k].name; });

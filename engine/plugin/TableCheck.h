@@ -1,6 +1,7 @@
 // Checks a plugin's parameter table before anything relies on it.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "teren/Parameter.h"
@@ -10,10 +11,15 @@ namespace teren {
 
 /// More parameters than this are taken for a mistake.
 inline constexpr std::size_t kMostParameters = 1000;
+/// More choices of one parameter, too.
+inline constexpr std::size_t kMostChoices = 100;
+/// The longest name, unit or choice, and the longest line of documentation.
+inline constexpr std::size_t kNameBytes = 64, kDocBytes = 400;
 
-/// Refuses empty, odd or repeated names (letters, digits, '-', '_'; a letter first), unknown types, ranges
-/// that are empty or not finite, integers that are not whole or beyond +-2^53, choices without choices, and
-/// defaults outside their range. The sentence names the parameter and the value.
+/// Refuses null pointers that claim a length, texts that are not one readable line, empty, odd or repeated
+/// names (letters, digits, '-', '_'; a letter first), unknown types, ranges that are empty or not finite,
+/// integers that are not whole or beyond +-2^53, choices without choices, and defaults outside their range.
+/// The sentence names the parameter and the value.
 Result<void> checkTable(std::span<const Parameter> table);
 
 }  // namespace teren

@@ -12,6 +12,8 @@
 #include "teren/Parameter.h"
 #include "teren/Quote.h"
 
+#include "plugin/Thrown.h"
+
 namespace teren {
 
 std::size_t BaseMapKeyHash::operator()(const BaseMapKey& key) const noexcept {
@@ -29,7 +31,7 @@ bool BaseMapTask::step(const Slice& slice) {
     if (!stepPlugins(slice)) return false;
     check();
   } catch (const std::exception& problem) {
-    fail("threw " + inQuotes(problem.what()));
+    fail("threw " + inQuotes(textOf(problem)));
   } catch (...) {
     fail("threw something that is no std::exception");
   }

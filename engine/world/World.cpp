@@ -10,6 +10,7 @@
 #include "teren/Quote.h"
 
 #include "height/Surface.h"
+#include "plugin/Thrown.h"
 #include "world/BaseMap.h"
 #include "world/ErrorBound.h"
 #include "world/Layer.h"
@@ -65,7 +66,7 @@ Result<HeightRange> promisedRange(const Promise& promise, const std::string& plu
     if (const Result<void> sane = checkRange(range, plugin); !sane) return sane.error();
     return range;
   } catch (const std::exception& problem) {
-    thrown = inQuotes(problem.what());
+    thrown = inQuotes(textOf(problem));
   } catch (...) {
   }
   return Error{plugin + " threw " + thrown + " when asked for its range"};

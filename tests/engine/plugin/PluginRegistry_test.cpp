@@ -79,7 +79,11 @@ TEST(PluginRegistry, RefusesEveryBrokenModuleWithItsOwnSentence) {
       {"teren-no-symbol.so", "it does not export the function terenPlugin"},
       {"teren-no-table.so", "its description has no parameter table"},
       {"teren-null-description.so", "its function terenPlugin returned no description"},
+      {"teren-null-name.so",
+       "the name of row 2 of the table is not one line of readable text of at most 64 bytes"},
+      {"teren-null-rows.so", "the table has 3 parameters at no address"},
       {"teren-null-texts.so", "its description has no version"},
+      {"teren-null-words.so", "its description holds no readable list of ABI words"},
       {"teren-one-other-word.so",
        "it was built for another binary interface: \"plugin interface version\" is " +
            std::to_string(kPluginInterfaceVersion + 1) + " in the module and " +
@@ -214,6 +218,7 @@ TEST(PluginRegistry, CatchesConstructorsThatThrow) {
   EXPECT_EQ(refusal(1.0), "plugin \"throwing\" refuses its parameters: no ground today");
   EXPECT_EQ(refusal(2.0), "plugin \"throwing\" refuses its parameters without saying why");
   EXPECT_EQ(refusal(3.0), "plugin \"throwing\" made nothing of its parameters");
+  EXPECT_EQ(refusal(4.0), "plugin \"throwing\" refuses its parameters: an exception without a text");
 }
 
 TEST(PluginRegistry, SearchesTheVariableThenBesideTheEngineThenTheInstallPrefix) {

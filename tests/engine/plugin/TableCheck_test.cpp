@@ -63,6 +63,31 @@ TEST(TableCheck, RefusesChoicesThatCannotBe) {
   EXPECT_NE(refusal(Parameter::choice("a", "one", kTwice, "")), "");
 }
 
+TEST(TableCheck, RefusesNullPointersThatClaimALength) {
+  const std::string_view nowhere(nullptr, 5);
+  const std::array<std::string_view, 2> choices = {"one", nowhere};
+  EXPECT_NE(refusal(Parameter::real(nowhere, 0.0, 0.0, 1.0, "", "")), "");
+  EXPECT_NE(refusal(Parameter::real("a", 0.0, 0.0, 1.0, nowhere, "")), "");
+  EXPECT_NE(refusal(Parameter::real("a", 0.0, 0.0, 1.0, "", nowhere)), "");
+  EXPECT_NE(refusal(Parameter::choice("a", "one", choices, "")), "");
+  EXPECT_NE(refusal(Parameter::choice("a", nowhere, kGood, "")), "");
+  EXPECT_NE(refusal(Parameter::choice("a", "", {static_cast<const std::string_view*>(nullptr), 2}, "")), "");
+  EXPECT_FALSE(checkTable({static_cast<const Parameter*>(nullptr), 1}).ok());
+}
+
+TEST(TableCheck, RefusesTextsThatNoSentenceCouldHold) {
+  const std::string huge(100'000, 'a');
+  const std::array<std::string_view, 2> lines = {"one", "two\nlines"};
+  const std::vector<std::string_view> many(kMostChoices + 1, "one");
+  EXPECT_NE(refusal(Parameter::real(huge, 0.0, 0.0, 1.0, "", "")), "");
+  EXPECT_NE(refusal(Parameter::real("a", 0.0, 0.0, 1.0, "m\x1b[31m", "")), "");
+  EXPECT_NE(refusal(Parameter::real("a", 0.0, 0.0, 1.0, "", "two\nlines")), "");
+  EXPECT_NE(refusal(Parameter::real("a", 0.0, 0.0, 1.0, "", huge)), "");
+  EXPECT_NE(refusal(Parameter::real("a", 0.0, 0.0, 1.0, "", "\xff")), "");
+  EXPECT_NE(refusal(Parameter::choice("a", "one", lines, "")), "");
+  EXPECT_NE(refusal(Parameter::choice("a", "one", many, "")), "");
+}
+
 TEST(TableCheck, RefusesUnknownTypesAndEndlessTables) {
   Parameter odd = Parameter::boolean("a", true, "");
   odd.type = static_cast<ParameterType>(77);
