@@ -1,6 +1,7 @@
 #include "teren/Position.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "teren/Parameter.h"
@@ -14,52 +15,58 @@ struct Axis {
   double fraction = 0.0;
 };
 
-/// Carries whole pitches from the fraction into the index. `index` is within +-2^53, so nothing overflows.
-Result<Axis> carried(std::int64_t index, double fraction, const char* name) {
+/// Carries whole pitches from the fraction into the index; nothing where the place lies beyond the world.
+/// `index` is within +-2^53, so nothing overflows.
+std::optional<Axis> carried(std::int64_t index, double fraction) {
   const double whole = std::floor(fraction);
-  if (!(std::fabs(whole) <= 2.0 * static_cast<double>(kMaxPatch))) {
-    return Error{std::string(name) + " lies beyond the world, which ends at +-2^52 pitches"};
-  }
+  if (!(std::fabs(whole) <= 2.0 * static_cast<double>(kMaxPatch))) return std::nullopt;
   Axis axis{index + static_cast<std::int64_t>(whole), fraction - whole};
   if (axis.fraction >= 1.0) {  // a tiny negative fraction rounds up to one
     axis.fraction = 0.0;
     ++axis.index;
   }
-  if (axis.index < -kMaxPatch || axis.index >= kMaxPatch) {
-    return Error{std::string(name) + " lies beyond the world, which ends at +-2^52 pitches"};
-  }
+  if (axis.index < -kMaxPatch || axis.index >= kMaxPatch) return std::nullopt;
   return axis;
 }
 
-Result<Axis> axisFromMetres(double metres, double pitch, const char* name) {
-  if (!std::isfinite(metres))
-    return Error{std::string(name) + " is " + numberText(metres) + ", not a finite number"};
+std::optional<Axis> axisFromMetres(double metres, double pitch) {
   const double whole = std::floor(metres / pitch);
-  if (!(std::fabs(whole) <= static_cast<double>(kMaxPatch))) {
-    return Error{std::string(name) + " = " + numberText(metres) +
-                 " m lies beyond the world, which ends at +-2^52 pitches"};
-  }
+  if (!(std::fabs(whole) <= static_cast<double>(kMaxPatch))) return std::nullopt;  // NaN and infinity too
   // The remainder is exact (fma); metres / pitch may have rounded across a whole number: carried() mends it.
-  return carried(static_cast<std::int64_t>(whole), std::fma(-whole, pitch, metres) / pitch, name);
+  return carried(static_cast<std::int64_t>(whole), std::fma(-whole, pitch, metres) / pitch);
+}
+
+Error notInTheWorld(const char* name, double metres, const char* doing) {
+  const std::string value = std::string(name) + " = " + numberText(metres) + " m";
+  if (!std::isfinite(metres)) return {value + " is not finite"};
+  return {value + doing + " beyond the world, which ends at +-2^52 pitches"};
+}
+
+bool validAxis(std::int64_t index, double fraction) noexcept {
+  return index >= -kMaxPatch && index < kMaxPatch && fraction >= 0.0 && fraction < 1.0;  // false for NaN
 }
 
 }  // namespace
 
+bool Position::valid() const noexcept {
+  return validAxis(i, u) && validAxis(j, v);
+}
+
 Result<Position> Position::fromMetres(double x, double y, double pitch) {
-  const Result<Axis> east = axisFromMetres(x, pitch, "x");
-  if (!east) return east.error();
-  const Result<Axis> north = axisFromMetres(y, pitch, "y");
-  if (!north) return north.error();
+  const std::optional<Axis> east = axisFromMetres(x, pitch), north = axisFromMetres(y, pitch);
+  if (!east) return notInTheWorld("x", x, " lies");
+  if (!north) return notInTheWorld("y", y, " lies");
   return Position{east->index, north->index, east->fraction, north->fraction};
 }
 
 Result<Position> Position::movedBy(double dx, double dy, double pitch) const {
+  if (!valid()) return Error{"the position to move from is not in the world"};
   const Result<Position> step = fromMetres(dx, dy, pitch);
   if (!step) return step.error();
-  const Result<Axis> east = carried(i + step->i, u + step->u, "x");
-  if (!east) return east.error();
-  const Result<Axis> north = carried(j + step->j, v + step->v, "y");
-  if (!north) return north.error();
+  const std::optional<Axis> east = carried(i + step->i, u + step->u),
+                            north = carried(j + step->j, v + step->v);
+  if (!east) return notInTheWorld("x", dx, " leads");
+  if (!north) return notInTheWorld("y", dy, " leads");
   return Position{east->index, north->index, east->fraction, north->fraction};
 }
 

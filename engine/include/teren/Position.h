@@ -17,11 +17,15 @@ struct Position {
   std::int64_t i = 0, j = 0;
   double u = 0.0, v = 0.0;
 
+  /// Whether the rules above hold (false for NaN). fromMetres and movedBy give valid positions only; others
+  /// may be asked of nothing but this, movedBy, x and y.
+  bool valid() const noexcept;
+
   /// The point (x, y) [m]; exact but for the rounding of the offsets. Refuses NaN, infinity and points beyond
   /// kMaxPatch. `pitch` is the world's, > 0 and finite, here and below.
   static Result<Position> fromMetres(double x, double y, double pitch);
 
-  /// The point (dx, dy) metres away. Refuses like fromMetres.
+  /// The point (dx, dy) metres away. Refuses like fromMetres, and where this position is not valid.
   Result<Position> movedBy(double dx, double dy, double pitch) const;
 
   /// Metres east and north of the world's zero; loses precision far from it (for display).

@@ -145,6 +145,24 @@ TEST(Position, EndsAtTheLastPatchAndNotBefore) {
   }
 }
 
+TEST(Position, NamesTheValueAlsoWhereItIsOnlyJustBeyond) {
+  const std::string message = Position::fromMetres(0.0, std::ldexp(64.0, 52), 64.0).error().message;
+  EXPECT_EQ(message.rfind("y = 288230376151711744 m", 0), 0U) << message;
+}
+
+TEST(Position, IsValidOnlyInsideTheWorldAndItsPatch) {
+  EXPECT_TRUE((Position{-kMaxPatch, kMaxPatch - 1, 0.0, 1.0 - 0x1p-53}).valid());
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  for (const Position& odd :
+       {Position{kMaxPatch, 0, 0.0, 0.0}, Position{0, -kMaxPatch - 1, 0.0, 0.0}, Position{kMost, 0, 0.0, 0.0},
+        Position{0, -kMost - 1, 0.0, 0.0}, Position{0, 0, 1.0, 0.0}, Position{0, 0, 0.0, -0x1p-60},
+        Position{0, 0, kNaN, 0.0}, Position{0, 0, 0.0, kNaN}, Position{0, 0, kInfinity, 0.0},
+        Position{0, 0, 1e300, 0.0}}) {
+    EXPECT_FALSE(odd.valid()) << odd.i << ", " << odd.j << ", " << odd.u << ", " << odd.v;
+    EXPECT_FALSE(odd.movedBy(1.0, 1.0, 64.0).ok());
+  }
+}
+
 TEST(Position, MovesByExactlyTheDistanceWhereverItIs) {
   constexpr std::uint64_t kSeed = 43;
   RecordProperty("seed", static_cast<int>(kSeed));

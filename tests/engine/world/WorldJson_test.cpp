@@ -264,7 +264,8 @@ TEST_F(WorldJsonFile, IsRefusedByNameWhereItCannotBeRead) {
                                                                   {folder_, "not a file"},
                                                                   {"/dev/zero", "not a file"},
                                                                   {huge, "16 MiB"},
-                                                                  {write("empty.json", ""), "is not JSON"}}) {
+                                                                  {write("empty.json", ""), "is not JSON"},
+                                                                  {"/proc/self/mem", "could not be read"}}) {
     const auto world = WorldDescription::fromFile(file);
     ASSERT_FALSE(world.ok()) << file;
     EXPECT_EQ(world.error().message.rfind(file.string(), 0), 0U) << world.error().message;
