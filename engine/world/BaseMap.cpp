@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <exception>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,25 +28,33 @@ BaseMapTask::BaseMapTask(const Layer& layer, const BaseMapKey& key)
 bool BaseMapTask::step(const Slice& slice) {
   try {
     if (!stepPlugins(slice)) return false;
-    check();
   } catch (const std::exception& problem) {
-    fail("threw " + inQuotes(textOf(problem)));
+    fail(culprit(), "threw " + inQuotes(textOf(problem)));
   } catch (...) {
-    fail("threw something that is no std::exception");
+    fail(culprit(), "threw something that is no std::exception");
   }
+  if (!failed_) check();
   return true;
 }
 
 bool BaseMapTask::stepPlugins(const Slice& slice) {
-  while (stage_ <= layer_.filters().size()) {
+  while (!failed_ && stage_ <= layer_.filters().size()) {
+    const StepWatch::Start start = StepWatch::start(slice);
     if (!current_) {
       current_ = stage_ == 0 ? layer_.generator().begin(request_, map_->view())
                              : layer_.filters()[stage_ - 1]->begin(request_, map_->view());
-      if (!current_) throw std::runtime_error("begin returned no task");
     }
-    if (!current_->step(slice)) {
-      if (++steps_ == kMaxSteps) throw std::runtime_error("not done after 2^24 steps");
-      return false;
+    if (!current_) {
+      fail(culprit(), "began no task");
+      break;
+    }
+    const bool done = current_->step(slice);
+    if (const auto overrun = layer_.watch(stage_).finish(slice, start))
+      layer_.reportOverrun(stage_, *overrun);
+    if (!done) {
+      if (++steps_ < kMaxSteps) return false;
+      fail(culprit(), "is not done after 2^24 steps");
+      break;
     }
     current_.reset();
     steps_ = 0;
@@ -61,17 +68,25 @@ void BaseMapTask::check() {
   const HeightRange& range = layer_.range();
   for (const float height : map_->samples()) {
     if (std::isfinite(height) && height >= range.min && height <= range.max) continue;
-    fail("wrote the height " + numberText(height) + " m, outside its promised range of " +
-         numberText(range.min) + " to " + numberText(range.max) + " m");
+    std::string all = layer_.pluginIds().size() == 1 ? "plugin " : "its plugins ";
+    for (const std::string& id : layer_.pluginIds()) all += (all.back() == ' ' ? "" : ", ") + inQuotes(id);
+    fail(all, "wrote the height " + numberText(height) + " m, outside the promised range of " +
+                  numberText(range.min) + " to " + numberText(range.max) + " m");
     return;
   }
 }
 
-void BaseMapTask::fail(const std::string& why) {
+std::string BaseMapTask::culprit() const {
+  return "plugin " + inQuotes(layer_.pluginIds()[stage_]);
+}
+
+void BaseMapTask::fail(const std::string& who, const std::string& what) {
+  failed_ = true;
   current_.reset();
   fillHeights(map_->view(), static_cast<float>(layer_.range().mean));
-  layer_.report("layer " + inQuotes(layer_.name()) + " at lattice point (" + std::to_string(request_.i) +
-                ", " + std::to_string(request_.j) + ") " + why + "; its mean is used there instead");
+  layer_.reportFailure("layer " + inQuotes(layer_.name()) + ": " + who + " " + what + " at lattice point (" +
+                       std::to_string(request_.i) + ", " + std::to_string(request_.j) +
+                       "); the layer's mean takes its place there");
 }
 
 BaseMap BaseMapStore::find(const BaseMapKey& key) {

@@ -45,9 +45,12 @@ class BaseMapTask final : public SlicedTask {
   BaseMap result() const { return map_; }
 
  private:
+  /// True when all plugins are done, or one has failed.
   bool stepPlugins(const Slice& slice);
   void check();
-  void fail(const std::string& why);
+  /// `who` did `what`.
+  void fail(const std::string& who, const std::string& what);
+  std::string culprit() const;  // the plugin of this stage
 
   const Layer& layer_;
   MapRequest request_;
@@ -55,6 +58,7 @@ class BaseMapTask final : public SlicedTask {
   std::unique_ptr<SlicedTask> current_;
   std::size_t stage_ = 0;   // 0: generator, k: filter k - 1
   std::int64_t steps_ = 0;  // of this stage
+  bool failed_ = false;
 };
 
 /// Finished base maps, the least recently used dropped first when more than `capacity` bytes are held (they

@@ -1,9 +1,12 @@
 #include "world/Layer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "teren/Hash.h"
+#include "teren/Parameter.h"
+#include "teren/Quote.h"
 
 namespace teren {
 
@@ -20,8 +23,7 @@ std::vector<std::string> MessageBox::take() {
 }
 
 Layer::Layer(std::string name, std::uint64_t worldSeed, double worldPitch, int worldBits, int pitchShift,
-             int layerBits, BlendKernel kernel, bool preserveVariance,
-             std::shared_ptr<const Generator> generator, std::vector<std::shared_ptr<const Filter>> filters,
+             int layerBits, BlendKernel kernel, bool preserveVariance, LayerPlugins plugins,
              const HeightRange& range, std::shared_ptr<MessageBox> messages)
     : name_(std::move(name)),
       worldSeed_(worldSeed),
@@ -33,10 +35,29 @@ Layer::Layer(std::string name, std::uint64_t worldSeed, double worldPitch, int w
       cutLevel_(std::max(0, worldBits + pitchShift - 2)),
       kernel_(kernel),
       preserveVariance_(preserveVariance),
-      generator_(std::move(generator)),
-      filters_(std::move(filters)),
+      plugins_(std::move(plugins)),
       range_(range),
-      messages_(std::move(messages)) {}
+      messages_(std::move(messages)),
+      watches_(std::make_shared<std::vector<StepWatch>>(plugins_.filters.size() + 1)),
+      failed_(std::make_shared<std::atomic<bool>>(false)) {
+  assert(plugins_.ids.size() == plugins_.filters.size() + 1);
+}
+
+void Layer::reportFailure(const std::string& sentence) const {
+  *failed_ = true;
+  messages_->post(name_, sentence);
+}
+
+void Layer::reportOverrun(std::size_t stage, const Overrun& overrun) const {
+  const auto milliseconds = [](std::chrono::nanoseconds time) {
+    return numberText(static_cast<double>(time / std::chrono::microseconds(1)) / 1000.0) + " ms";
+  };
+  const std::string& id = plugins_.ids[stage];
+  messages_->post(name_ + '\n' + id, "layer " + inQuotes(name_) + ": plugin " + inQuotes(id) + " used " +
+                                         milliseconds(overrun.used) +
+                                         " of processor time in a step that was given " +
+                                         milliseconds(overrun.slice) + ", so frames come late");
+}
 
 int Layer::mapLevel(int level) const noexcept {
   return level == 0 ? 0 : std::max(0, level - (worldBits_ + pitchShift_ - layerBits_));

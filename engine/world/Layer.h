@@ -1,6 +1,8 @@
 // One layer of the world: a generator with its filters, lattice and base maps.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -9,18 +11,27 @@
 
 #include "teren/World.h"
 
+#include "world/StepWatch.h"
+
 namespace teren {
 
 /// Sentences about plugins that misbehaved. Thread-safe.
 class MessageBox {
  public:
-  /// Keeps the first sentence of each source (a layer) and drops later ones.
+  /// Keeps the first sentence of each source (a layer, or one of its plugins) and drops later ones.
   void post(const std::string& source, const std::string& sentence);
   std::vector<std::string> take();
 
  private:
   std::mutex mutex_;
   std::vector<std::string> sources_, sentences_;
+};
+
+/// What makes a layer's maps. `ids` are the plugins', the generator's first, then the filters', for messages.
+struct LayerPlugins {
+  std::shared_ptr<const Generator> generator;
+  std::vector<std::shared_ptr<const Filter>> filters;
+  std::vector<std::string> ids;
 };
 
 /// Immutable. Distances along its lattice are counted in level-0 samples of the world, whole numbers.
@@ -30,15 +41,17 @@ class Layer {
   /// "pitch = world pitch times 2^m", `layerBits` the logarithm of this layer's intervals a pitch, `range`
   /// what generator and filters together promise.
   Layer(std::string name, std::uint64_t worldSeed, double worldPitch, int worldBits, int pitchShift,
-        int layerBits, BlendKernel kernel, bool preserveVariance, std::shared_ptr<const Generator> generator,
-        std::vector<std::shared_ptr<const Filter>> filters, const HeightRange& range,
-        std::shared_ptr<MessageBox> messages);
+        int layerBits, BlendKernel kernel, bool preserveVariance, LayerPlugins plugins,
+        const HeightRange& range, std::shared_ptr<MessageBox> messages);
 
   const std::string& name() const noexcept { return name_; }
   BlendKernel kernel() const noexcept { return kernel_; }
   bool preserveVariance() const noexcept { return preserveVariance_; }
-  const Generator& generator() const noexcept { return *generator_; }
-  const std::vector<std::shared_ptr<const Filter>>& filters() const noexcept { return filters_; }
+  const Generator& generator() const noexcept { return *plugins_.generator; }
+  const std::vector<std::shared_ptr<const Filter>>& filters() const noexcept { return plugins_.filters; }
+  const std::vector<std::string>& pluginIds() const noexcept { return plugins_.ids; }
+  /// Of the generator (stage 0) or of filter stage - 1. Shared by all tasks: watching changes no layer.
+  StepWatch& watch(std::size_t stage) const noexcept { return (*watches_)[stage]; }
   /// After the filters.
   const HeightRange& range() const noexcept { return range_; }
   double pitch() const noexcept { return pitch_; }
@@ -62,7 +75,12 @@ class Layer {
   /// Request for the base map at lattice point (i, j).
   MapRequest request(std::int64_t i, std::int64_t j, int mapLevel) const noexcept;
 
-  void report(const std::string& sentence) const { messages_->post(name_, sentence); }
+  /// A plugin failed, so the mean stands in for a map; each layer is told of once.
+  void reportFailure(const std::string& sentence) const;
+  /// The plugin of a stage broke the rule of StepWatch; each of a layer's plugins is told of once.
+  void reportOverrun(std::size_t stage, const Overrun& overrun) const;
+  /// Whether reportFailure was ever called.
+  bool failed() const noexcept { return *failed_; }
 
  private:
   std::string name_;
@@ -71,10 +89,11 @@ class Layer {
   int worldBits_, pitchShift_, layerBits_, cutLevel_;
   BlendKernel kernel_;
   bool preserveVariance_;
-  std::shared_ptr<const Generator> generator_;
-  std::vector<std::shared_ptr<const Filter>> filters_;
+  LayerPlugins plugins_;
   HeightRange range_;
   std::shared_ptr<MessageBox> messages_;
+  std::shared_ptr<std::vector<StepWatch>> watches_;  // by stage
+  std::shared_ptr<std::atomic<bool>> failed_;
 };
 
 }  // namespace teren

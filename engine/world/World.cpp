@@ -104,16 +104,17 @@ Result<Layer> makeLayer(const LayerDescription& description, const WorldDescript
   Result<HeightRange> range =
       promisedRange([&] { return (*generator)->range(); }, where + inQuotes(description.generator));
   if (!range) return range.error();
-  std::vector<std::shared_ptr<const Filter>> filters;
+  LayerPlugins plugins{std::move(*generator), {}, {description.generator}};
   for (const FilterDescription& wanted : description.filters) {
     Result<std::shared_ptr<const Filter>> filter = registry.makeFilter(wanted.filter, wanted.parameters);
     if (!filter) return Error{where + filter.error().message};
     range = promisedRange([&] { return (*filter)->range(*range); }, where + inQuotes(wanted.filter));
     if (!range) return range.error();
-    filters.push_back(std::move(*filter));
+    plugins.filters.push_back(std::move(*filter));
+    plugins.ids.push_back(wanted.filter);
   }
   return Layer(description.name, world.seed, world.pitch, worldBits, *shift, *bits - 1, description.blend,
-               description.preserveVariance, std::move(*generator), std::move(filters), *range, messages);
+               description.preserveVariance, std::move(plugins), *range, messages);
 }
 
 BaseMap finishedMap(const Layer& layer, const BaseMapKey& key, BaseMapStore& store) {
@@ -183,6 +184,10 @@ std::span<const Layer> World::layers() const noexcept {
 
 std::vector<std::string> World::takeMessages() const {
   return messages_->take();
+}
+
+bool World::sound() const noexcept {
+  return std::none_of(layers_.begin(), layers_.end(), [](const Layer& layer) { return layer.failed(); });
 }
 
 double World::mean() const noexcept {

@@ -96,9 +96,13 @@ class World {
   double mean() const noexcept;
   double deviation() const noexcept;
 
-  /// Sentences about plugins that misbehaved (threw, wrote NaN or left their promised range) since the last
-  /// call, each layer once; the landscape goes on with the layer's mean in their place.
+  /// Sentences about plugins that misbehaved since the last call. Those that failed (threw, wrote NaN, left
+  /// their promised range or were never done), each layer once: the landscape goes on with the layer's mean
+  /// in their place. Those whose steps went on far beyond their slices (engine/world/StepWatch.h says how
+  /// far), each plugin of a layer once: their heights are as good as any.
   std::vector<std::string> takeMessages() const;
+  /// False once a plugin has failed: somewhere a layer's mean stands in for what it should have made.
+  bool sound() const noexcept;
 
   std::span<const Layer> layers() const noexcept;  ///< engine/world/Layer.h, for the engine itself
 

@@ -26,8 +26,11 @@ inline Layer makeTestLayer(const LayerShape& shape, std::shared_ptr<const Genera
                            std::shared_ptr<MessageBox> messages = std::make_shared<MessageBox>()) {
   HeightRange range = generator->range();
   for (const auto& filter : filters) range = filter->range(range);
+  std::vector<std::string> ids = {"generator"};
+  for (std::size_t k = 0; k < filters.size(); ++k) ids.push_back("filter-" + std::to_string(k));
   return Layer("test", shape.seed, 64.0, shape.worldBits, shape.pitchShift, shape.layerBits, shape.kernel,
-               shape.preserveVariance, std::move(generator), std::move(filters), range, std::move(messages));
+               shape.preserveVariance, {std::move(generator), std::move(filters), std::move(ids)}, range,
+               std::move(messages));
 }
 
 inline BaseMap makeMap(const Layer& layer, std::int64_t i, std::int64_t j, int mapLevel = 0) {
