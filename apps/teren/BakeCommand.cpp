@@ -112,6 +112,7 @@ class BakeCommand final : public Command {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     const std::string unfinished = "interrupted, " + inQuotes(order.file.string()) + " was not written";
     if (interruption.came()) return fail(kWorkFailed, unfinished);
+    if (const auto code = failWith(world, inQuotes(order.file.string()) + " was not written")) return *code;
     if (!heights) return fail(kWrongInput, heights.error().message);
 
     Result<void> written = writeShowingProgress(order, world, heights->view(), file->stream(), interruption);
@@ -135,7 +136,7 @@ class BakeCommand final : public Command {
     options.workers = order.workers;
     options.progress = [&](std::size_t done, std::size_t wanted) {
       line.show(done, wanted);
-      return !interruption.came();
+      return !interruption.came() && !world.failure();
     };
     return bake(world, order.region, options);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -40,6 +41,13 @@ class Command {
   /// What the plugins did wrong on the way, after work that was done all the same.
   void complainAbout(const World& world) const {
     for (const std::string& message : world.takeMessages()) complain(*parent_, message);
+  }
+  /// Where a plugin failed, so that what was made is not the landscape described: what does not happen now,
+  /// and why, in one sentence.
+  std::optional<ExitCode> failWith(const World& world, const std::string& consequence) const {
+    const std::optional<std::string> cause = world.failure();
+    if (!cause) return std::nullopt;
+    return fail(kWorkFailed, consequence + ": " + *cause);
   }
 
  private:

@@ -1,5 +1,6 @@
 // teren query WORLD X Y [X Y]... [--json]: heights, normals and error bounds at points.
 #include <iostream>
+#include <utility>
 #include <vector>
 
 #include "teren/Parameter.h"
@@ -69,21 +70,29 @@ class QueryCommand final : public Command {
     if (!world) return fail(kWrongInput, world.error().message);
     const Result<std::vector<TypedPoint>> points = readPoints(points_->results(), (*world)->pitch());
     if (!points) return fail(kWrongInput, points.error().message);
-    OrderedJson answer = {{"points", OrderedJson::array()}};
+    std::vector<SurfacePoint> surfaces;
     for (const TypedPoint& point : points.value()) {
-      const SurfacePoint surface = (*world)->query(point.position);
-      if (json_->count() > 0) {
-        answer["points"].push_back(asJson(point, surface));
-      } else {
-        std::cout << asText(point, surface) << '\n';
-      }
+      surfaces.push_back((*world)->query(point.position));
+      if (const auto code = failWith(**world, "there is no answer")) return *code;
     }
-    if (json_->count() > 0) printJson(answer);
+    answer(points.value(), surfaces);
     complainAbout(**world);
     return kSuccess;
   }
 
  private:
+  void answer(const std::vector<TypedPoint>& points, const std::vector<SurfacePoint>& surfaces) const {
+    OrderedJson list = OrderedJson::array();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (json_->count() > 0) {
+        list.push_back(asJson(points[k], surfaces[k]));
+      } else {
+        std::cout << asText(points[k], surfaces[k]) << '\n';
+      }
+    }
+    if (json_->count() > 0) printJson({{"points", std::move(list)}});
+  }
+
   WorldOptions world_;
   const CLI::Option* points_;
   const CLI::Option* json_;

@@ -85,8 +85,7 @@ void BaseMapTask::fail(const std::string& who, const std::string& what) {
   current_.reset();
   fillHeights(map_->view(), static_cast<float>(layer_.range().mean));
   layer_.reportFailure("layer " + inQuotes(layer_.name()) + ": " + who + " " + what + " at lattice point (" +
-                       std::to_string(request_.i) + ", " + std::to_string(request_.j) +
-                       "); the layer's mean takes its place there");
+                       std::to_string(request_.i) + ", " + std::to_string(request_.j) + ")");
 }
 
 BaseMap BaseMapStore::find(const BaseMapKey& key) {

@@ -10,16 +10,31 @@
 
 namespace teren {
 
-void MessageBox::post(const std::string& source, const std::string& sentence) {
-  const std::lock_guard lock(mutex_);
+void MessageBox::postLocked(const std::string& source, const std::string& sentence) {
   if (std::find(sources_.begin(), sources_.end(), source) != sources_.end()) return;
   sources_.push_back(source);
   sentences_.push_back(sentence);
 }
 
+void MessageBox::post(const std::string& source, const std::string& sentence) {
+  const std::lock_guard lock(mutex_);
+  postLocked(source, sentence);
+}
+
+void MessageBox::postFailure(const std::string& layer, const std::string& cause) {
+  const std::lock_guard lock(mutex_);
+  if (!failure_) failure_ = cause;
+  postLocked(layer, cause + "; the layer's mean takes its place there");
+}
+
 std::vector<std::string> MessageBox::take() {
   const std::lock_guard lock(mutex_);
   return std::exchange(sentences_, {});
+}
+
+std::optional<std::string> MessageBox::failure() {
+  const std::lock_guard lock(mutex_);
+  return failure_;
 }
 
 Layer::Layer(std::string name, std::uint64_t worldSeed, double worldPitch, int worldBits, int pitchShift,
@@ -38,14 +53,8 @@ Layer::Layer(std::string name, std::uint64_t worldSeed, double worldPitch, int w
       plugins_(std::move(plugins)),
       range_(range),
       messages_(std::move(messages)),
-      watches_(std::make_shared<std::vector<StepWatch>>(plugins_.filters.size() + 1)),
-      failed_(std::make_shared<std::atomic<bool>>(false)) {
+      watches_(std::make_shared<std::vector<StepWatch>>(plugins_.filters.size() + 1)) {
   assert(plugins_.ids.size() == plugins_.filters.size() + 1);
-}
-
-void Layer::reportFailure(const std::string& sentence) const {
-  *failed_ = true;
-  messages_->post(name_, sentence);
 }
 
 void Layer::reportOverrun(std::size_t stage, const Overrun& overrun) const {

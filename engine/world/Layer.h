@@ -1,11 +1,11 @@
 // One layer of the world: a generator with its filters, lattice and base maps.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +20,18 @@ class MessageBox {
  public:
   /// Keeps the first sentence of each source (a layer, or one of its plugins) and drops later ones.
   void post(const std::string& source, const std::string& sentence);
+  /// Of a layer whose mean stands in for a map: `cause` alone is remembered, the sentence tells both.
+  void postFailure(const std::string& layer, const std::string& cause);
   std::vector<std::string> take();
+  /// The cause of the first failure, if there was any; taking the sentences does not take it.
+  std::optional<std::string> failure();
 
  private:
+  void postLocked(const std::string& source, const std::string& sentence);
+
   std::mutex mutex_;
   std::vector<std::string> sources_, sentences_;
+  std::optional<std::string> failure_;
 };
 
 /// What makes a layer's maps. `ids` are the plugins', the generator's first, then the filters', for messages.
@@ -76,11 +83,9 @@ class Layer {
   MapRequest request(std::int64_t i, std::int64_t j, int mapLevel) const noexcept;
 
   /// A plugin failed, so the mean stands in for a map; each layer is told of once.
-  void reportFailure(const std::string& sentence) const;
+  void reportFailure(const std::string& cause) const { messages_->postFailure(name_, cause); }
   /// The plugin of a stage broke the rule of StepWatch; each of a layer's plugins is told of once.
   void reportOverrun(std::size_t stage, const Overrun& overrun) const;
-  /// Whether reportFailure was ever called.
-  bool failed() const noexcept { return *failed_; }
 
  private:
   std::string name_;
@@ -93,7 +98,6 @@ class Layer {
   HeightRange range_;
   std::shared_ptr<MessageBox> messages_;
   std::shared_ptr<std::vector<StepWatch>> watches_;  // by stage
-  std::shared_ptr<std::atomic<bool>> failed_;
 };
 
 }  // namespace teren

@@ -186,8 +186,8 @@ std::vector<std::string> World::takeMessages() const {
   return messages_->take();
 }
 
-bool World::sound() const noexcept {
-  return std::none_of(layers_.begin(), layers_.end(), [](const Layer& layer) { return layer.failed(); });
+std::optional<std::string> World::failure() const {
+  return messages_->failure();
 }
 
 double World::mean() const noexcept {

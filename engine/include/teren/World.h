@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -101,8 +102,9 @@ class World {
   /// in their place. Those whose steps went on far beyond their slices (engine/world/StepWatch.h says how
   /// far), each plugin of a layer once: their heights are as good as any.
   std::vector<std::string> takeMessages() const;
-  /// False once a plugin has failed: somewhere a layer's mean stands in for what it should have made.
-  bool sound() const noexcept;
+  /// Why a plugin first failed, in a sentence; empty where none has. Afterwards heights may be the mean of
+  /// its layer, so what is to be kept, a file say, is not the landscape described.
+  std::optional<std::string> failure() const;
 
   std::span<const Layer> layers() const noexcept;  ///< engine/world/Layer.h, for the engine itself
 

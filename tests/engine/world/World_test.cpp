@@ -586,6 +586,9 @@ TEST(World, GoesOnWithTheMeanOfALayerThatFailsAndSaysSoOnce) {
   EXPECT_NE(messages[0].find("layer \"hostile\""), std::string::npos) << messages[0];
   EXPECT_TRUE(world->takeMessages().empty());
   EXPECT_TRUE(without->takeMessages().empty());
+  EXPECT_FALSE(without->failure().has_value());
+  ASSERT_TRUE(world->failure().has_value()) << "taking the messages does not take the failure";
+  EXPECT_EQ(messages[0], *world->failure() + "; the layer's mean takes its place there");
 }
 
 TEST(World, StandardIsValidAndHasRangesHillsAndDetail) {
