@@ -18,16 +18,19 @@ const char* typeText(ParameterType type) {
       return "integer";
     case ParameterType::boolean:
       return "boolean";
+    case ParameterType::text:
+      return "text";
     case ParameterType::choice:
       break;
   }
   return "choice";
 }
 
-/// A bound in the parameter's own type; null where it has none.
+/// A bound in the parameter's own type, of a text its bytes; null where it has none.
 OrderedJson boundJson(const Parameter& parameter, double bound) {
   if (parameter.type == ParameterType::real) return bound;
-  if (parameter.type == ParameterType::integer) return static_cast<std::int64_t>(bound);
+  if (parameter.type == ParameterType::integer || parameter.type == ParameterType::text)
+    return static_cast<std::int64_t>(bound);
   return nullptr;
 }
 
@@ -57,6 +60,9 @@ std::string asText(const Parameter& parameter) {
     line += ":";
     for (const std::string_view choice : parameter.choices) line += " " + std::string(choice);
     line += "; default " + std::string(parameter.defaultChoice);
+  } else if (parameter.type == ParameterType::text) {
+    line +=
+        " of at most " + numberText(parameter.max) + " bytes; default " + inQuotes(parameter.defaultChoice);
   } else if (parameter.type == ParameterType::boolean) {
     line += std::string("; default ") + (parameter.defaultNumber != 0.0 ? "true" : "false");
   } else {

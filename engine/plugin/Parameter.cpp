@@ -8,6 +8,8 @@
 
 #include "teren/Quote.h"
 
+#include "plugin/TableCheck.h"
+
 namespace teren {
 namespace {
 
@@ -38,6 +40,8 @@ std::string expectation(const Parameter& row) {
       return "a whole number" + range;
     case ParameterType::boolean:
       return "true or false";
+    case ParameterType::text:
+      return "a text of at most " + numberText(row.max) + " bytes without control characters";
     case ParameterType::choice:
       break;
   }
@@ -79,6 +83,12 @@ std::optional<ParameterValue> integerValue(const Parameter& row, const Parameter
   return number;
 }
 
+std::optional<ParameterValue> textValue(const Parameter& row, const ParameterValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (text == nullptr || !isPlainText(*text, row.max)) return std::nullopt;
+  return value;
+}
+
 std::optional<ParameterValue> checkedValue(const Parameter& row, const ParameterValue& value) {
   switch (row.type) {
     case ParameterType::real:
@@ -88,6 +98,8 @@ std::optional<ParameterValue> checkedValue(const Parameter& row, const Parameter
     case ParameterType::boolean:
       if (!std::holds_alternative<bool>(value)) return std::nullopt;
       return value;
+    case ParameterType::text:
+      return textValue(row, value);
     case ParameterType::choice:
       break;
   }
@@ -107,7 +119,7 @@ Error unknownParameter(std::span<const Parameter> table, std::string_view name, 
 
 /// A typed text as the value the row wants, as far as its form tells; ranges are Values::check's affair.
 std::optional<ParameterValue> parseValue(const Parameter& row, std::string_view text) {
-  if (row.type == ParameterType::choice) return std::string(text);
+  if (row.type == ParameterType::choice || row.type == ParameterType::text) return std::string(text);
   if (row.type == ParameterType::boolean) {
     if (text == "true" || text == "1") return true;
     if (text == "false" || text == "0") return false;
@@ -135,6 +147,7 @@ ParameterValue Parameter::defaultValue() const {
       return static_cast<std::int64_t>(defaultNumber);
     case ParameterType::boolean:
       return defaultNumber != 0.0;
+    case ParameterType::text:
     case ParameterType::choice:
       break;
   }

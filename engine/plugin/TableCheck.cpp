@@ -79,6 +79,21 @@ Result<void> checkChoice(const Parameter& row) {
   return {};
 }
 
+Result<void> checkText(const Parameter& row) {
+  if (!(isWholeAndExact(row.max) && row.max >= 1.0 && row.max <= kMostTextBytes)) {
+    return Error{"the text of parameter " + inQuotes(row.name) + " may have " + numberText(row.max) +
+                 " bytes, expected 1 to " + numberText(kMostTextBytes)};
+  }
+  if (row.defaultChoice.data() == nullptr && !row.defaultChoice.empty()) {
+    return Error{"the default of parameter " + inQuotes(row.name) + " is a text at no address"};
+  }
+  if (!isPlainText(row.defaultChoice, row.max)) {
+    return Error{"the default " + inQuotes(row.defaultChoice) + " of parameter " + inQuotes(row.name) +
+                 " has more than " + numberText(row.max) + " bytes or a control character"};
+  }
+  return {};
+}
+
 Result<void> checkRow(const Parameter& row, std::size_t number) {
   const std::string place = " of row " + std::to_string(number) + " of the table ";
   if (!isLine(row.name, kNameBytes)) return Error{"the name" + place + notALine(kNameBytes)};
@@ -95,12 +110,20 @@ Result<void> checkRow(const Parameter& row, std::size_t number) {
       return checkNumber(row);
     case ParameterType::choice:
       return checkChoice(row);
+    case ParameterType::text:
+      return checkText(row);
   }
   return Error{"parameter " + inQuotes(row.name) + " has the unknown type " +
                std::to_string(static_cast<int>(row.type))};
 }
 
 }  // namespace
+
+bool isPlainText(std::string_view text, double maxBytes) noexcept {
+  return static_cast<double>(text.size()) <= maxBytes && std::none_of(text.begin(), text.end(), [](char c) {
+           return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+         });
+}
 
 Result<void> checkTable(std::span<const Parameter> table) {
   if (table.size() > kMostParameters) {

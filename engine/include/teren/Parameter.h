@@ -16,9 +16,9 @@
 
 namespace teren {
 
-enum class ParameterType { real, integer, boolean, choice };
+enum class ParameterType { real, integer, boolean, choice, text };
 
-/// A parameter's value; which alternative follows from the parameter's type (a choice is a string).
+/// A parameter's value; which alternative follows from the parameter's type (choice and text are strings).
 using ParameterValue = std::variant<double, std::int64_t, bool, std::string>;
 
 /// One row of a parameter table. All texts must outlive the plugin (string literals do).
@@ -26,8 +26,8 @@ struct Parameter {
   std::string_view name;
   ParameterType type = ParameterType::real;
   double defaultNumber = 0.0;      ///< real, integer and boolean (0 or 1)
-  double min = 0.0, max = 0.0;     ///< inclusive range of real and integer
-  std::string_view defaultChoice;  ///< choice only
+  double min = 0.0, max = 0.0;     ///< inclusive range of real and integer; max: the most bytes of a text
+  std::string_view defaultChoice;  ///< choice and text
   std::span<const std::string_view> choices;
   std::string_view unit;  ///< "m", "1/m", "degree"; empty for pure numbers
   std::string_view doc;   ///< one line
@@ -57,6 +57,13 @@ struct Parameter {
     return {name, ParameterType::choice, 0.0, 0.0, 0.0, defaultValue, choices, {}, doc};
   }
 
+  /// For what no number can say, a list for instance; the plugin reads it. At most maxBytes (1 ... 65536)
+  /// without control characters.
+  static constexpr Parameter text(std::string_view name, std::string_view defaultText, std::size_t maxBytes,
+                                  std::string_view doc) {
+    return {name, ParameterType::text, 0.0, 0.0, static_cast<double>(maxBytes), defaultText, {}, {}, doc};
+  }
+
   ParameterValue defaultValue() const;
 };
 
@@ -71,8 +78,9 @@ class Values {
   static Values defaults(std::span<const Parameter> table);
 
   /// The defaults, overridden by `entries`; refuses unknown names, repeated names, wrong types, non-finite
-  /// numbers and values outside the range. A whole-numbered real is accepted for an integer parameter and
-  /// any integer for a real one. `owner` names the plugin in the message.
+  /// numbers, values outside the range, and texts that are too long or hold control characters. A
+  /// whole-numbered real is accepted for an integer parameter and any integer for a real one. `owner` names
+  /// the plugin in the message.
   static Result<Values> check(std::span<const Parameter> table, std::span<const Entry> entries,
                               std::string_view owner);
 
@@ -81,6 +89,7 @@ class Values {
   std::int64_t integer(std::string_view name) const { return get<std::int64_t>(name); }
   bool boolean(std::string_view name) const { return get<bool>(name); }
   const std::string& choice(std::string_view name) const { return get<std::string>(name); }
+  const std::string& text(std::string_view name) const { return get<std::string>(name); }
 
   std::span<const Entry> entries() const noexcept { return entries_; }
 

@@ -91,6 +91,26 @@ TEST(Values, NeverRoundAnInteger) {
   EXPECT_FALSE(check(1e300));
 }
 
+constexpr std::array kTextTable = {Parameter::text("rows", "1 2", 5, "a list")};
+
+TEST(Values, TakeATextUpToItsMostBytesWithoutControlCharacters) {
+  const auto check = [](ParameterValue value) {
+    const std::array entries = {Values::Entry("rows", std::move(value))};
+    return Values::check(kTextTable, entries, "list");
+  };
+  EXPECT_EQ(Values::defaults(kTextTable).text("rows"), "1 2");
+  for (const char* good : {"", "12345", "h\xc3\xb6he"})
+    EXPECT_EQ(check(std::string(good))->text("rows"), good);
+  for (const char* bad : {"123456", "1\n2", "1\t2", "\x7f"})
+    EXPECT_FALSE(check(std::string(bad)).ok()) << bad;
+  EXPECT_FALSE(check(std::string("1\0", 2)).ok());
+  EXPECT_FALSE(check(12.0).ok());
+  EXPECT_EQ(check(std::string("123456")).error().message,
+            "parameter \"rows\" of list is \"123456\" but must be a text of at most 5 bytes without control "
+            "characters");
+  EXPECT_EQ(parseAssignment(kTextTable, "rows=1=2")->second, ParameterValue(std::string("1=2")));
+}
+
 TEST(Values, NameTheParameterTheValueAndWhatWasExpected) {
   EXPECT_EQ(checkOne("hurst", 1.5).error().message,
             "parameter \"hurst\" of fault is 1.5 but must be a number from 0 to 1");

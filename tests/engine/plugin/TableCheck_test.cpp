@@ -20,7 +20,7 @@ std::string refusal(const Parameter& row) {
 TEST(TableCheck, AcceptsEveryKindOfRow) {
   const std::array table = {Parameter::real("a", 0.0, -1.0, 1.0, "m", ""),
                             Parameter::integer("b-2", 5, 5, 5, "", ""), Parameter::boolean("c_d", true, ""),
-                            Parameter::choice("E", "two", kGood, "")};
+                            Parameter::choice("E", "two", kGood, ""), Parameter::text("F", "", 65536, "")};
   EXPECT_TRUE(checkTable(table).ok());
   EXPECT_TRUE(checkTable({}).ok());
 }
@@ -71,6 +71,7 @@ TEST(TableCheck, RefusesNullPointersThatClaimALength) {
   EXPECT_NE(refusal(Parameter::real("a", 0.0, 0.0, 1.0, "", nowhere)), "");
   EXPECT_NE(refusal(Parameter::choice("a", "one", choices, "")), "");
   EXPECT_NE(refusal(Parameter::choice("a", nowhere, kGood, "")), "");
+  EXPECT_NE(refusal(Parameter::text("a", nowhere, 10, "")), "");
   EXPECT_NE(refusal(Parameter::choice("a", "", {static_cast<const std::string_view*>(nullptr), 2}, "")), "");
   EXPECT_FALSE(checkTable({static_cast<const Parameter*>(nullptr), 1}).ok());
 }
@@ -86,6 +87,14 @@ TEST(TableCheck, RefusesTextsThatNoSentenceCouldHold) {
   EXPECT_NE(refusal(Parameter::real("a", 0.0, 0.0, 1.0, "", "\xff")), "");
   EXPECT_NE(refusal(Parameter::choice("a", "one", lines, "")), "");
   EXPECT_NE(refusal(Parameter::choice("a", "one", many, "")), "");
+}
+
+TEST(TableCheck, RefusesTextsThatCannotBe) {
+  EXPECT_NE(refusal(Parameter::text("a", "", 0, "")), "");
+  EXPECT_NE(refusal(Parameter::text("a", "", 65537, "")), "");
+  EXPECT_NE(refusal(Parameter::text("a", "two", 2, "")), "");
+  EXPECT_EQ(refusal(Parameter::text("a", "b\n", 2, "")),
+            "the default \"b?\" of parameter \"a\" has more than 2 bytes or a control character");
 }
 
 TEST(TableCheck, RefusesUnknownTypesAndEndlessTables) {
