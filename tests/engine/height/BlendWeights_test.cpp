@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -142,21 +144,66 @@ TEST(BlendWeights, OfTheSmoothKernelHaveNoFirstAndSecondDerivativeAtTheEnds) {
   }
 }
 
-TEST(BlendWeights, OfTheLinearKernelAreThePublishedOnesForSideNine) {
-  // Thesis A (2005), weight matrix of a map of side 9, two decimals.
-  constexpr double kPublished[5][5] = {{0.0, 0.0, 0.0, 0.0, 0.0},
-                                       {0.0, 0.06, 0.13, 0.19, 0.25},
-                                       {0.0, 0.13, 0.25, 0.38, 0.50},
-                                       {0.0, 0.19, 0.38, 0.56, 0.75},
-                                       {0.0, 0.25, 0.50, 0.75, 1.0}};
-  const auto along = [](int sample) {  // of the map's own weight, from rim over centre to rim
-    return sample <= 4 ? blendWeights(BlendKernel::linear, sample / 4.0).high
-                       : blendWeights(BlendKernel::linear, (sample - 4) / 4.0).low;
+/// The weight of a map at its sample (column, row): the product of two tents over the pitch on either side of
+/// its centre.
+double weightAt(BlendKernel kernel, int side, int column, int row) {
+  const int pitch = (side - 1) / 2;
+  const auto along = [&](int sample) {  // from rim over centre to rim
+    return sample <= pitch ? blendWeights(kernel, static_cast<double>(sample) / pitch).high
+                           : blendWeights(kernel, static_cast<double>(sample - pitch) / pitch).low;
   };
-  for (int y = 0; y < 9; ++y) {
-    for (int x = 0; x < 9; ++x) {
-      const double published = kPublished[y <= 4 ? y : 8 - y][x <= 4 ? x : 8 - x];
-      EXPECT_NEAR(along(x) * along(y), published, 0.005 + 1e-12) << "column " << x << ", row " << y;
+  return along(column) * along(row);
+}
+
+/// A weight as the thesis prints it: 0, 1, or two decimals, halves rounded up, without the leading zero.
+std::string printed(double weight) {
+  const int hundredths = static_cast<int>(std::floor(100.0 * weight + 0.5));
+  if (hundredths % 100 == 0) return std::to_string(hundredths / 100);
+  return std::string(".") + static_cast<char>('0' + hundredths / 10) +
+         static_cast<char>('0' + hundredths % 10);
+}
+
+TEST(BlendWeights, OfTheLinearKernelAreDigitForDigitThePublishedMatrixOfSideNine) {
+  // Thesis A (2005): the weight matrix of a map of side 9.
+  constexpr std::array<std::string_view, 9> kPublished = {"0 0 0 0 0 0 0 0 0",                //
+                                                          "0 .06 .13 .19 .25 .19 .13 .06 0",  //
+                                                          "0 .13 .25 .38 .50 .38 .25 .13 0",  //
+                                                          "0 .19 .38 .56 .75 .56 .38 .19 0",  //
+                                                          "0 .25 .50 .75 1 .75 .50 .25 0",    //
+                                                          "0 .19 .38 .56 .75 .56 .38 .19 0",  //
+                                                          "0 .13 .25 .38 .50 .38 .25 .13 0",  //
+                                                          "0 .06 .13 .19 .25 .19 .13 .06 0",  //
+                                                          "0 0 0 0 0 0 0 0 0"};
+  for (int row = 0; row < 9; ++row) {
+    std::string line;
+    for (int column = 0; column < 9; ++column) {
+      line += (column == 0 ? "" : " ") + printed(weightAt(BlendKernel::linear, 9, column, row));
+    }
+    EXPECT_EQ(line, kPublished[static_cast<std::size_t>(row)]) << "row " << row;
+  }
+}
+
+TEST(BlendWeights, OfTheLinearKernelAreExactAsPublishedAlsoForTheDefaultSide) {
+  // 1 in the middle, 0 on the rim, 1/4 in the middles of the quadrants, 1/2 half way along the arms;
+  // quadrants laid over each other sum to one.
+  const auto weight = [](int column, int row) { return weightAt(BlendKernel::linear, 65, column, row); };
+  EXPECT_EQ(weight(32, 32), 1.0);
+  for (const int k : {16, 48}) {
+    EXPECT_EQ(weight(k, 32), 0.5);
+    EXPECT_EQ(weight(32, k), 0.5);
+    EXPECT_EQ(weight(k, k), 0.25);
+    EXPECT_EQ(weight(64 - k, k), 0.25);
+  }
+  for (int k = 0; k < 65; ++k) {
+    for (const int rim : {0, 64}) {
+      EXPECT_EQ(weight(k, rim), 0.0);
+      EXPECT_EQ(weight(rim, k), 0.0);
+    }
+  }
+  for (int y = 0; y <= 32; ++y) {
+    for (int x = 0; x <= 32; ++x) {
+      EXPECT_EQ(weight(x, y) + weight(x + 32, y) + weight(x, y + 32) + weight(x + 32, y + 32), 1.0);
+      EXPECT_EQ(weight(x, y), x * y / 1024.0);
     }
   }
 }
