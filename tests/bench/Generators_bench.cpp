@@ -1,5 +1,6 @@
 // Fault formation against its plain version, compiled once for the scalar unit and once for AVX2, and the
-// band filter against its own. Repetitions are interleaved at random; the ratios of the medians come last.
+// band and matrix filters against their own. Repetitions are interleaved at random; the ratios of the medians
+// come last.
 #include <cstdio>
 #include <map>
 #include <string>
@@ -12,6 +13,8 @@
 #include "generators/fault/FaultFormation.h"
 #include "generators/filter/BandFilter.h"
 #include "generators/filter/BandReference.h"
+#include "generators/filter/MatrixFilter.h"
+#include "generators/filter/MatrixReference.h"
 #include "tests/support/SlicedWork.h"
 
 namespace teren {
@@ -56,6 +59,22 @@ void band(benchmark::State& state, bool fast) {
       kFilter.begin(map.view())->step(Slice::unlimited());
     } else {
       bandReference(kFilter, map.view());
+    }
+    benchmark::ClobberMemory();
+  }
+}
+
+/// Passes over a map with a matrix of so many rows, all ones.
+void matrix(benchmark::State& state, int side, bool fast) {
+  const auto elements = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  const MatrixFilter filter =
+      MatrixFilter::make(FilterMatrix::make(side, std::vector<double>(elements, 1.0)).value(), 1).value();
+  HeightMap map = source();
+  for (auto _ : state) {
+    if (fast) {
+      filter.begin(map.view())->step(Slice::unlimited());
+    } else {
+      matrixReference(filter, map.view());
     }
     benchmark::ClobberMemory();
   }
@@ -122,11 +141,19 @@ int runAll(int argc, char** argv) {
   }
   benchmark::RegisterBenchmark("band/fast", band, true)->Unit(microseconds);
   benchmark::RegisterBenchmark("band/plain", band, false)->Unit(microseconds);
+  for (const int side : {3, 5, 31}) {
+    const std::string name = "matrix" + std::to_string(side);
+    benchmark::RegisterBenchmark((name + "/fast").c_str(), matrix, side, true)->Unit(microseconds);
+    benchmark::RegisterBenchmark((name + "/plain").c_str(), matrix, side, false)->Unit(microseconds);
+  }
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   reporter.printRatio("faults/plain-scalar", "faults/fast", 40.0);
   reporter.printRatio("faults/plain-avx2", "faults/fast", 15.0);
   reporter.printRatio("band/plain", "band/fast", 0.0);
+  reporter.printRatio("matrix3/plain", "matrix3/fast", 0.0);
+  reporter.printRatio("matrix5/plain", "matrix5/fast", 0.0);
+  reporter.printRatio("matrix31/plain", "matrix31/fast", 0.0);
   return 0;
 }
 

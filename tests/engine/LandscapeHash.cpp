@@ -60,7 +60,7 @@ T valueOrExit(teren::Result<T> result) {
 teren::WorldDescription filteredFaults() {
   teren::LayerDescription layer;
   layer.generator = "fault";
-  layer.filters = {{"band", {{"k", 0.9}, {"passes", std::int64_t{5}}}}};
+  layer.filters = {{"band", {{"k", 0.9}, {"passes", std::int64_t{5}}}}, {"matrix", {}}};
   teren::WorldDescription description;
   description.seed = 7;
   description.layers = {layer};
