@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "stream/ObjectSet.h"
 #include "stream/Streamer.h"
 
 namespace teren {
@@ -47,6 +48,11 @@ Result<void> check(const EngineOptions& options, const World& world) {
   return {};
 }
 
+/// Objects may ask for anything, NaN included.
+bool isInItsPatch(const Position& position) {
+  return position.u >= 0.0 && position.u < 1.0 && position.v >= 0.0 && position.v < 1.0;
+}
+
 }  // namespace
 
 struct Engine::State final : Ground {
@@ -54,15 +60,14 @@ struct Engine::State final : Ground {
       : world(std::move(theWorld)),
         options(theOptions),
         streamer(*world, options),
+        objects(world->pitch()),
         scene(std::make_shared<const Scene>(0, world->spacing(0),
                                             std::vector<std::shared_ptr<const Mesh>>{})) {}
 
   std::shared_ptr<const World> world;
   EngineOptions options;
   Streamer streamer;
-  std::vector<std::unique_ptr<Object>> objects;
-  std::size_t active = 0;
-  std::vector<Motion> motions;
+  ObjectSet objects;
   std::shared_ptr<const Scene> scene;
   std::size_t sceneTriangles = 0;
   std::chrono::nanoseconds lastUpdate{0};
@@ -72,27 +77,23 @@ struct Engine::State final : Ground {
   double pitch() const noexcept override { return world->pitch(); }
   std::optional<double> drawnHeight(const Position& position) const;
 
-  void choose();
+  void choose() { streamer.choose(objects.motions(), objects.active()); }
   void publish();
 };
 
 std::optional<double> Engine::State::drawnHeight(const Position& position) const {
+  if (!isInItsPatch(position)) return std::nullopt;
   const int level = options.view.level;
   const NodeStore& nodes = streamer.nodes();
   return nodes.isDrawn(nodeAt(position, level)) ? nodes.height(position, level) : std::nullopt;
 }
 
 std::optional<double> Engine::State::height(const Position& position) const {
+  if (!isInItsPatch(position)) return std::nullopt;
   const std::optional<double> drawn = drawnHeight(position);
   const std::optional<double> finest = streamer.nodes().height(position, 0);
   if (drawn && finest) return std::max(*drawn, *finest);
   return drawn ? drawn : finest;
-}
-
-void Engine::State::choose() {
-  motions.clear();
-  for (const auto& object : objects) motions.push_back(object->motion());
-  streamer.choose(motions, active);
 }
 
 void Engine::State::publish() {
@@ -122,29 +123,36 @@ void Engine::setRendererBytes(std::size_t bytes) noexcept {
 }
 
 Object& Engine::add(std::unique_ptr<Object> object) {
-  assert(object);
-  state_->objects.push_back(std::move(object));
-  return *state_->objects.back();
+  return state_->objects.add(std::move(object));
 }
 std::size_t Engine::objectCount() const noexcept {
   return state_->objects.size();
 }
 Object& Engine::object(std::size_t index) noexcept {
-  assert(index < state_->objects.size());
-  return *state_->objects[index];
+  return state_->objects.at(index);
 }
 std::size_t Engine::active() const noexcept {
-  return state_->active;
+  return state_->objects.active();
 }
 void Engine::setActive(std::size_t index) noexcept {
-  assert(index < state_->objects.size());
-  state_->active = index;
+  state_->objects.setActive(index);
+}
+bool Engine::handle(const InputEvent& event) {
+  return state_->objects.handle(event);
+}
+void Engine::letGo() {
+  state_->objects.letGo();
+}
+std::vector<std::string> Engine::takeMessages() {
+  std::vector<std::string> messages = state_->objects.takeMessages();
+  for (std::string& message : state_->world->takeMessages()) messages.push_back(std::move(message));
+  return messages;
 }
 
 void Engine::update(double dt, std::chrono::nanoseconds budget) {
   const Slice::Clock::time_point start = Slice::Clock::now();
   State& state = *state_;
-  for (const auto& object : state.objects) object->update(dt, state);
+  state.objects.advance(dt, state, StoredGround(state.streamer.nodes()));
   state.choose();
   state.streamer.work(start + budget);
   state.publish();

@@ -77,7 +77,13 @@ void Streamer::choose(std::span<const Motion> motions, std::size_t active) {
 std::vector<NodeKey> Streamer::chooseGround(std::span<const Motion> motions) const {
   std::vector<std::vector<NodeKey>> lists;
   lists.reserve(motions.size());
-  for (const Motion& motion : motions) lists.push_back(groundNodes(motion, world_));
+  for (const Motion& motion : motions) {
+    GroundNodes nodes = groundNodes(motion, world_);
+    lists.push_back(std::move(nodes.wanted));
+    for (const NodeKey& key : nodes.passing) {
+      if (nodes_.heights(key)) lists.back().push_back(key);
+    }
+  }
   // Every object's own node first, then what each will reach next. A quarter of the cap is for ground.
   const std::size_t most = std::max(motions.size(), options_.capBytes / 4 / nodes_.heldBytes());
   std::vector<NodeKey> ground;

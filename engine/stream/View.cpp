@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <tuple>
+#include <unordered_map>
 
 namespace teren {
 
@@ -13,6 +14,24 @@ namespace {
 bool insideWorld(const NodeKey& key) noexcept {
   const std::int64_t most = (kMaxPatch >> key.level) - 1;
   return key.i >= -most && key.i < most && key.j >= -most && key.j < most;
+}
+
+/// The level-0 nodes of the square with sides of 2 `margin` around a place, its own first.
+std::vector<NodeKey> nodesWithin(const Position& place, double margin, double pitch) {
+  const NodeKey own = nodeAt(place, 0);
+  std::vector<NodeKey> nodes;
+  if (insideWorld(own)) nodes.push_back(own);
+  const auto patches = [pitch](double offset) {
+    return static_cast<std::int64_t>(std::floor(offset / pitch));
+  };
+  const double east = place.u * pitch, north = place.v * pitch;
+  for (std::int64_t dj = patches(north - margin); dj <= patches(north + margin); ++dj) {
+    for (std::int64_t di = patches(east - margin); di <= patches(east + margin); ++di) {
+      const NodeKey key{0, own.i + di, own.j + dj};
+      if (key != own && insideWorld(key)) nodes.push_back(key);
+    }
+  }
+  return nodes;
 }
 
 }  // namespace
@@ -47,30 +66,34 @@ bool mayStay(const NodeKey& key, const NodeKey& centre, const ViewSettings& view
   return key.level == view.level && std::abs(key.i - centre.i) <= most && std::abs(key.j - centre.j) <= most;
 }
 
-std::vector<NodeKey> groundNodes(const Motion& motion, const World& world) {
+GroundNodes groundNodes(const Motion& motion, const World& world) {
+  const double pitch = world.pitch(), margin = std::max(kGroundMargin, motion.reach);
+  const double speed = std::sqrt(motion.east * motion.east + motion.north * motion.north);
+  constexpr double kStepsAPitch = 2.0;
+  const double stepSeconds = speed > 0.0 ? pitch / (kStepsAPitch * speed) : kGroundSeconds;
+  constexpr double kMostSteps = kStepsAPitch * kGroundPitches;
+  const double ahead = speed > 0.0 && std::isfinite(speed) ? std::ceil(kGroundSeconds / stepSeconds) : 0.0;
+  const double steps = std::min(ahead, kMostSteps);
   std::vector<NodeKey> nodes;
-  const auto want = [&](double east, double north) {
-    const Result<Position> place = motion.position.movedBy(east, north, world.pitch());
-    if (!place) return;  // beyond the world's end there is no ground
-    const NodeKey key = nodeAt(*place, 0);
-    if (insideWorld(key) && std::find(nodes.begin(), nodes.end(), key) == nodes.end()) nodes.push_back(key);
-  };
-  const auto wantAround = [&](double east, double north) {
-    want(east, north);
-    for (const double x : {-kGroundMargin, kGroundMargin}) {
-      for (const double y : {-kGroundMargin, kGroundMargin}) want(east + x, north + y);
+  std::unordered_map<NodeKey, double, NodeKeyHash> lastStep;
+  for (double step = 0.0; step <= steps; step += 1.0) {
+    const double seconds = std::min(step * stepSeconds, kGroundSeconds);
+    const double east = step > 0.0 ? motion.east * seconds : 0.0;
+    const double north = step > 0.0 ? motion.north * seconds : 0.0;
+    const Result<Position> place = motion.position.movedBy(east, north, pitch);
+    if (!place) break;  // beyond the world's end there is no ground
+    for (const NodeKey& key : nodesWithin(*place, margin, pitch)) {
+      if (lastStep.insert_or_assign(key, step).second) nodes.push_back(key);
     }
-  };
-  const double distance = std::hypot(motion.east, motion.north) * kGroundSeconds;
-  if (!std::isfinite(distance)) return nodes;
-  constexpr double kMostSteps = 64.0;
-  const double steps = std::min(kMostSteps, std::ceil(2.0 * distance / world.pitch()));
-  wantAround(0.0, 0.0);
-  for (double step = 1.0; step <= steps; step += 1.0) {
-    const double seconds = kGroundSeconds * step / steps;
-    wantAround(motion.east * seconds, motion.north * seconds);
   }
-  return nodes;
+  GroundNodes ground;
+  for (const NodeKey& key : nodes) {
+    const double last = lastStep.at(key);
+    const bool isLeft = last < steps || ahead > steps;
+    const bool passing = !std::isfinite(speed) || (isLeft && (last + 1.0) * stepSeconds < kGroundNotice);
+    (passing ? ground.passing : ground.wanted).push_back(key);
+  }
+  return ground;
 }
 
 }  // namespace teren

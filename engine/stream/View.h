@@ -17,10 +17,20 @@ std::vector<NodeKey> viewNodes(const Position& position, const ViewSettings& vie
 /// the view, so that turning about does not throw away what is wanted again at once.
 bool mayStay(const NodeKey& key, const NodeKey& centre, const ViewSettings& view, int margin) noexcept;
 
-/// The level-0 nodes an object needs: those within kGroundMargin of its place now and where its motion takes
-/// it within kGroundSeconds, its own first.
+/// The level-0 nodes an object needs: those within kGroundMargin (or its reach, if larger) of its place now
+/// and where its motion takes it within kGroundSeconds, in the order in which it reaches them, without a gap.
+/// Only the next kGroundPitches of its way count, so a faster object's ground is wanted for a shorter time.
+struct GroundNodes {
+  std::vector<NodeKey> wanted;
+  /// It will have left these within kGroundNotice, most likely before they could be made: to be kept where
+  /// they are held, but not made. For an object faster than kGroundPitches in kGroundNotice (about 160 km/s
+  /// over patches of 64 m) that is all there is.
+  std::vector<NodeKey> passing;
+};
 inline constexpr double kGroundMargin = 8.0;   ///< [m]
 inline constexpr double kGroundSeconds = 2.0;  ///< [s]
-std::vector<NodeKey> groundNodes(const Motion& motion, const World& world);
+inline constexpr double kGroundNotice = 0.05;  ///< [s]
+inline constexpr double kGroundPitches = 128.0;
+GroundNodes groundNodes(const Motion& motion, const World& world);
 
 }  // namespace teren

@@ -67,11 +67,18 @@ class Engine {
   std::size_t objectCount() const noexcept;
   Object& object(std::size_t index) noexcept;
   std::size_t active() const noexcept;
+  /// The object active before lets go of its keys.
   void setActive(std::size_t index) noexcept;
+  /// What the person does, for the active object; returns whether it meant anything to it.
+  bool handle(const InputEvent& event);
+  /// The active object lets go of its keys: the window has lost the keyboard.
+  void letGo();
 
-  /// Moves the objects by dt seconds, then works at what is missing until the budget is used, then publishes
-  /// a new scene if anything changed. No slice starts after the budget's end. Call from a timer or sensor,
-  /// never while the scene is being drawn.
+  /// Moves the objects by dt seconds (not finite or negative: 0) and tells them what they ran into, on the
+  /// straight way from where each was, at any speed: the level-0 ground, as far as it is there, and each
+  /// other, the earliest first. Then works at what is missing until the budget is used, then publishes a new
+  /// scene if anything changed. No slice starts after the budget's end. Call from a timer or sensor, never
+  /// while the scene is being drawn.
   void update(double dt, std::chrono::nanoseconds budget);
 
   /// Works without moving anything until all that the view wants is there.
@@ -90,6 +97,9 @@ class Engine {
   const Ground& ground() const noexcept;
 
   EngineFigures figures() const noexcept;
+
+  /// Sentences since the last call about plugins (World::takeMessages) and objects that misbehaved.
+  std::vector<std::string> takeMessages();
 
   /// Bytes the renderer holds for this engine's scenes (vertex buffers): counted under the cap. Call when
   /// they change.

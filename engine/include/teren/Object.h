@@ -18,7 +18,8 @@ class Ground {
  public:
   virtual ~Ground() = default;
   /// [m] The highest of the level-0 triangles and the triangles on the screen at a position: what an object
-  /// must stay above so that it is neither below the ground nor seen to be. Empty where neither is there yet.
+  /// must stay above so that it is neither below the ground nor seen to be. Empty where neither is there yet,
+  /// and for what is not a position (NaN).
   virtual std::optional<double> height(const Position& position) const = 0;
   virtual double pitch() const noexcept = 0;
 };
@@ -26,9 +27,13 @@ class Ground {
 /// An object's state of motion: what the engine needs to know to have ground ready for it.
 struct Motion {
   Position position;
-  double height = 0.0;                       ///< [m] above zero
-  double east = 0.0, north = 0.0, up = 0.0;  ///< [m/s]
+  double height = 0.0;                       ///< [m] above zero, at most kMostHeight above or below
+  double east = 0.0, north = 0.0, up = 0.0;  ///< [m/s] finite
+  /// [m] 0 ... kLargestBall: how far around it there should be finest ground; its ball's size counts anyway.
+  double reach = 0.0;
 };
+inline constexpr double kMostHeight = 1e9;     ///< [m]
+inline constexpr double kLargestBall = 100.0;  ///< [m]
 
 /// How an object is turned. Angles in radians: heading clockwise from north; pitch and roll positive for nose
 /// up and right wing down. For the eye only: nothing the engine computes depends on it.
@@ -36,10 +41,10 @@ struct Attitude {
   double heading = 0.0, pitch = 0.0, roll = 0.0;
 };
 
-/// What an object is to a collision: a ball.
+/// What an object is to a collision: a ball, no part of it farther than kLargestBall from the object's place.
 struct CollisionSphere {
-  double radius = 0.0;                       ///< [m] finite, >= 0; 0 is a point, which other points never hit
-  double east = 0.0, north = 0.0, up = 0.0;  ///< [m] of its centre from the object's position; finite
+  double radius = 0.0;                       ///< [m] >= 0; 0 is a point
+  double east = 0.0, north = 0.0, up = 0.0;  ///< [m] of its centre from the object's place
 };
 
 class Object;
