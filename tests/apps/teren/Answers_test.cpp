@@ -48,7 +48,7 @@ TEST(PluginsAnswer, HoldsEveryPluginAndEveryRefusal) {
   for (const Json& module : answer.at("refused")) {
     if (module.at("file").get<std::string>().starts_with(TEREN_TEST_MODULES "/broken/")) ++broken;
   }
-  EXPECT_EQ(broken, 14U);
+  EXPECT_EQ(broken, namesIn(TEREN_TEST_MODULES "/broken").size());
   // The shipped ones are found beside the engine, without the variable's help.
   EXPECT_NE(withId(answer.at("plugins"), "fault"), nullptr);
 }
