@@ -48,9 +48,10 @@ Result<void> check(const EngineOptions& options, const World& world) {
   return {};
 }
 
-/// Objects may ask for anything, NaN included.
-bool isInItsPatch(const Position& position) {
-  return position.u >= 0.0 && position.u < 1.0 && position.v >= 0.0 && position.v < 1.0;
+/// Budgets may be as long as a duration can be.
+Slice::Clock::time_point deadlineAfter(Slice::Clock::time_point start, std::chrono::nanoseconds budget) {
+  constexpr Slice::Clock::time_point kNever = Slice::Clock::time_point::max();
+  return budget < kNever - start ? start + budget : kNever;
 }
 
 }  // namespace
@@ -82,14 +83,14 @@ struct Engine::State final : Ground {
 };
 
 std::optional<double> Engine::State::drawnHeight(const Position& position) const {
-  if (!isInItsPatch(position)) return std::nullopt;
+  if (!position.valid()) return std::nullopt;
   const int level = options.view.level;
   const NodeStore& nodes = streamer.nodes();
   return nodes.isDrawn(nodeAt(position, level)) ? nodes.height(position, level) : std::nullopt;
 }
 
 std::optional<double> Engine::State::height(const Position& position) const {
-  if (!isInItsPatch(position)) return std::nullopt;
+  if (!position.valid()) return std::nullopt;
   const std::optional<double> drawn = drawnHeight(position);
   const std::optional<double> finest = streamer.nodes().height(position, 0);
   if (drawn && finest) return std::max(*drawn, *finest);
@@ -154,7 +155,7 @@ void Engine::update(double dt, std::chrono::nanoseconds budget) {
   State& state = *state_;
   state.objects.advance(dt, state, StoredGround(state.streamer.nodes()));
   state.choose();
-  state.streamer.work(start + budget);
+  state.streamer.work(deadlineAfter(start, budget));
   state.publish();
   state.lastUpdate = Slice::Clock::now() - start;
 }

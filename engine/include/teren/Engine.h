@@ -88,7 +88,8 @@ class Engine {
   /// The latest snapshot, never null.
   std::shared_ptr<const Scene> scene() const noexcept;
 
-  /// [m] The triangles on the screen at a position; empty where nothing is drawn.
+  /// [m] The triangles on the screen at a position; empty where nothing is drawn, and, like the next two, for
+  /// a position that is not valid().
   std::optional<double> drawnHeight(const Position& position) const;
   /// [m] The level-0 triangles at a position, as they are kept under objects: World::query's `drawn`, bit for
   /// bit. Empty where they are not there.
