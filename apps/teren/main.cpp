@@ -1,8 +1,10 @@
 // teren: plugins, parameters, pieces and points of the landscape, from the command line.
 #include <cstdio>
 #include <exception>
+#include <fcntl.h>
 #include <iostream>
 #include <new>
+#include <unistd.h>
 #include <vector>
 
 #include "teren/Quote.h"
@@ -11,6 +13,15 @@
 #include "apps/teren/Command.h"
 
 namespace {
+
+/// Takes the numbers of standard streams that are closed, so that no file opened later gets one and is
+/// written into by what is meant for a person. What holds their place refuses to be read or written, as they
+/// did.
+void holdClosedStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) == -1) open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
 
 /// Answers that could not be written (a full disk, say) are a failure too.
 teren::ExitCode finish(const CLI::App& application, teren::ExitCode code) {
@@ -32,6 +43,7 @@ teren::ExitCode run(const CLI::App& application, teren::Command& command) {
 }  // namespace
 
 int main(int argumentCount, char** arguments) {
+  holdClosedStreams();
   CLI::App application("Teren on the command line: plugins, parameters, pieces and points of the landscape",
                        "teren");
   std::vector<std::unique_ptr<teren::Command>> commands;
