@@ -21,7 +21,8 @@ using Arguments = std::vector<std::string>;
 struct Answer {
   int exitCode = -1;  ///< -1 where a signal ended the program
   std::string output;
-  std::string complaint;  ///< standard error
+  std::string complaint;          ///< standard error
+  std::vector<std::string> left;  ///< names of the files it left in its current folder
 };
 
 /// A started program; `finish` must be called once.
@@ -30,6 +31,8 @@ class Program {
   struct Settings {
     std::string output;                  ///< a file for standard output instead of what Answer::output keeps
     rlim_t largestFile = RLIM_INFINITY;  ///< [bytes]
+    std::vector<int> closed;             ///< descriptors it finds closed
+    std::string plugins = TEREN_TEST_MODULES "/good:" TEREN_TEST_MODULES "/broken";  ///< its search path
   };
 
   explicit Program(const Arguments& arguments) : Program(arguments, Settings()) {}
@@ -47,9 +50,10 @@ class Program {
     const int complaint = open(complaintFile.c_str(), O_WRONLY | O_CREAT, 0600);
     dup2(output, STDOUT_FILENO);
     dup2(complaint, STDERR_FILENO);
-    setenv("TEREN_PLUGIN_PATH", TEREN_TEST_MODULES "/good:" TEREN_TEST_MODULES "/broken", 1);
+    setenv("TEREN_PLUGIN_PATH", settings.plugins.c_str(), 1);
     const rlimit limit = {settings.largestFile, settings.largestFile};
     setrlimit(RLIMIT_FSIZE, &limit);
+    for (const int descriptor : settings.closed) close(descriptor);
     // Whatever it writes by mistake goes with the folder.
     if (chdir(folder_.path().c_str()) != 0) _exit(127);
     execv(TEREN_PROGRAM, pointers.data());
@@ -75,8 +79,15 @@ class Program {
   Answer finish() {
     int status = 0;
     waitpid(process_, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, fileBytes(folder_ / "out"),
-            fileBytes(folder_ / "err")};
+    Answer answer{WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+                  fileBytes(folder_ / "out"),
+                  fileBytes(folder_ / "err"),
+                  {}};
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+      const std::string name = entry.path().filename();
+      if (name != "out" && name != "err") answer.left.push_back(name);
+    }
+    return answer;
   }
 
  private:
