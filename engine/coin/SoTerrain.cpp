@@ -410,9 +410,9 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
   teren::Picture picture = private_->look(state);
   std::vector<const teren::Mesh*> meshes =
       teren::visibleMeshes(state, *private_->children.scene(), picture.placement);
-  if (meshes.empty()) return;
-  picture.water = std::any_of(meshes.begin(), meshes.end(),
-                              [&](const teren::Mesh* mesh) { return mesh->minHeight < picture.waterLevel; });
+  picture.water =
+      teren::showsWater(state, *private_->children.scene(), picture.placement, picture.waterLevel);
+  if (meshes.empty() && !picture.water) return;
   if (static_cast<double>(picture.eye[2]) + private_->origin[2] > static_cast<double>(picture.waterLevel)) {
     std::erase_if(meshes, [&](const teren::Mesh* mesh) { return teren::isLostInWater(*mesh, picture); });
   }

@@ -45,6 +45,17 @@ bool isLostInWater(const Mesh& mesh, const Picture& picture) {
   return away.length() > kClearShare * picture.viewDistance;
 }
 
+bool showsWater(SoState* state, const Scene& scene, const ScenePlacement& placement, float waterLevel) {
+  return std::any_of(scene.meshes().begin(), scene.meshes().end(), [&](const auto& mesh) {
+    if (mesh->minHeight >= waterLevel) return false;
+    const SbBox3f box = placement.box(*mesh);
+    const float surface = box.getMax()[2] + (waterLevel - mesh->maxHeight);
+    const SbVec3f low = box.getMin(), high = box.getMax();
+    return SoCullElement::cullTest(state, SbBox3f(low[0], low[1], surface, high[0], high[1], surface)) ==
+           FALSE;
+  });
+}
+
 std::vector<const Mesh*> visibleMeshes(SoState* state, const Scene& scene, const ScenePlacement& placement) {
   const SbVec3f eye = eyePosition(state);
   std::vector<std::pair<float, const Mesh*>> ranked;

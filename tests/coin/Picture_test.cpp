@@ -100,6 +100,18 @@ TEST(Picture, ShowsWhatIsNotUploadedYetAllTheSame) {
   EXPECT_EQ(first, last);
 }
 
+TEST(Picture, ShowsTheSeaWhereItsBedIsOutsideTheView) {
+  const Stage stage;
+  stage.terrain->waterLevel = 0.0F;
+  stage.terrain->viewDistance = 120.0F;
+  stage.terrain->setScene(makeScene({.height = [](double, double) { return -900.0; }}));
+  stage.look(SbVec3f(64.0F, 1.0F, 30.0F), 0.0, -45.0);
+  OffscreenView view(64, 64);
+  const QImage picture = view.picture(stage.root, kMagenta);
+  EXPECT_EQ(stage.terrain->drawnTriangles(), 0U);
+  EXPECT_EQ(backgroundPixels(picture), 0);
+}
+
 /// The standard world, settled, somewhere on dry land.
 class Landscape : public ::testing::Test {
  protected:
