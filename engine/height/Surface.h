@@ -53,7 +53,7 @@ inline PackedNormal vertexNormal(float west, float east, float south, float nort
           static_cast<std::int16_t>(std::floor(ny * scale + 0.5))};
 }
 
-/// The unit normal of a triangle with the given slopes [m per side] and side [m].
+/// The unit normal of a triangle with the given slopes [m per side] and side [m]; its zeros are never -0.
 std::array<double, 3> faceNormal(const TrianglePoint& point, double side) noexcept;
 
 }  // namespace teren

@@ -136,10 +136,28 @@ CellMaps finishedMaps(const Layer& layer, int index, std::int64_t i, std::int64_
   return maps;
 }
 
+/// How many patches lie along a layer's pitch.
+double patchesAlong(int pitchShift) {
+  return static_cast<double>(std::int64_t{1} << pitchShift);
+}
+
 /// How far across its cell of a layer a place lies; exact where the position is a sample of the world's grid.
 double across(std::int64_t patch, double fraction, int pitchShift) {
   const std::int64_t mask = (std::int64_t{1} << pitchShift) - 1;
-  return (static_cast<double>(patch & mask) + fraction) / static_cast<double>(std::int64_t{1} << pitchShift);
+  return (static_cast<double>(patch & mask) + fraction) / patchesAlong(pitchShift);
+}
+
+/// The finest maps of the cell of a layer that a position lies in.
+CellMaps mapsAround(const Layer& layer, int index, const Position& position, BaseMapStore& store) {
+  const int shift = layer.pitchShift();
+  return finishedMaps(layer, index, position.i >> shift, position.j >> shift, store);
+}
+
+/// The layer at (u, v) in [0, 1] of the position's patch, given those maps.
+double heightInPatch(const Layer& layer, const CellMaps& maps, const Position& position, double u, double v) {
+  const int shift = layer.pitchShift();
+  return layerHeight(layer, linePlace(layer, 0, across(position.i, u, shift)),
+                     linePlace(layer, 0, across(position.j, v, shift)), maps);
 }
 
 }  // namespace
@@ -205,12 +223,8 @@ double World::deviation() const noexcept {
 double World::height(const Position& position) const {
   double sum = 0.0;
   for (std::size_t index = 0; index < layers_.size(); ++index) {
-    const Layer& layer = layers_[index];
-    const int shift = layer.pitchShift();
-    const CellMaps maps =
-        finishedMaps(layer, static_cast<int>(index), position.i >> shift, position.j >> shift, *queryMaps_);
-    sum += layerHeight(layer, linePlace(layer, 0, across(position.i, position.u, shift)),
-                       linePlace(layer, 0, across(position.j, position.v, shift)), maps);
+    const CellMaps maps = mapsAround(layers_[index], static_cast<int>(index), position, *queryMaps_);
+    sum += heightInPatch(layers_[index], maps, position, position.u, position.v);
   }
   return sum;
 }
@@ -219,30 +233,29 @@ SurfacePoint World::query(const Position& position) const {
   const double n = intervals_;
   const double x = position.u * n, y = position.v * n;
   const double column = std::floor(x), row = std::floor(y);
-  const auto corner = [&](int dx, int dy) {
-    Position at = position;
-    at.u = (column + dx) / n;
-    at.v = (row + dy) / n;
-    if (at.u == 1.0) at.u = 0.0, ++at.i;
-    if (at.v == 1.0) at.v = 0.0, ++at.j;
-    return static_cast<double>(static_cast<float>(height(at)));
-  };
-  const SquareHeights heights{corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)};
-  const TrianglePoint triangle = sampleTriangle(heights, x - column, y - row);
-
+  // The square's corners lie in the same cell of every layer, or on its border, where the cell beyond gives
+  // the same bits: the maps around the position serve for all.
+  std::array<double, 4> corners{};
   SurfacePoint point;
-  point.height = height(position);
-  point.drawn = triangle.height;
-  point.normal = faceNormal(triangle, spacing(0));
   for (std::size_t index = 0; index < layers_.size(); ++index) {
     const Layer& layer = layers_[index];
+    const CellMaps maps = mapsAround(layer, static_cast<int>(index), position, *queryMaps_);
+    for (int corner = 0; corner < 4; ++corner) {
+      corners[static_cast<std::size_t>(corner)] +=
+          heightInPatch(layer, maps, position, (column + (corner & 1)) / n, (row + (corner >> 1)) / n);
+    }
+    point.height += heightInPatch(layer, maps, position, position.u, position.v);
     const int shift = layer.pitchShift();
-    const CellMaps maps =
-        finishedMaps(layer, static_cast<int>(index), position.i >> shift, position.j >> shift, *queryMaps_);
-    const double side = 1.0 / (n * static_cast<double>(std::int64_t{1} << shift));
     point.error += triangleError(layer, maps, across(position.i, column / n, shift),
-                                 across(position.j, row / n, shift), side);
+                                 across(position.j, row / n, shift), 1.0 / (n * patchesAlong(shift)));
   }
+  const auto drawn = [&](std::size_t corner) {
+    return static_cast<double>(static_cast<float>(corners[corner]));
+  };
+  const SquareHeights heights{drawn(0), drawn(1), drawn(2), drawn(3)};
+  const TrianglePoint triangle = sampleTriangle(heights, x - column, y - row);
+  point.drawn = triangle.height;
+  point.normal = faceNormal(triangle, spacing(0));
   const double largest = std::max({std::fabs(heights.southWest), std::fabs(heights.southEast),
                                    std::fabs(heights.northWest), std::fabs(heights.northEast), 1.0});
   point.error += largest * 0x1p-23;  // drawn heights are floats; sums in double round far less

@@ -85,11 +85,14 @@ class World {
 
   /// Law 0: the landscape's height [m], a pure function of the description and the position. Makes the base
   /// maps it needs and keeps the latest (at most kQueryBytes) for the next query; a first query costs up to
-  /// four maps per layer, later ones nearby about a microsecond per layer.
+  /// four maps per layer, later ones nearby about a microsecond per layer. Where the maps around one place
+  /// are more than kQueryBytes (four of 2049 samples a side are 67 MB) those that do not fit are made anew
+  /// each time; a layer's four are held while it is asked, so that any world can be.
   double height(const Position& position) const;
   static constexpr std::size_t kQueryBytes = std::size_t{64} << 20;
 
-  /// Both heights of a point, law 0 and the level-0 triangles, and a bound on their difference.
+  /// Both heights of a point, law 0 and the level-0 triangles, and a bound on their difference. Makes no map
+  /// twice, whatever fits into kQueryBytes.
   SurfacePoint query(const Position& position) const;
 
   /// Sum of the layers' means [m], and the standard deviation [m] of the landscape at a lattice point, were

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <dlfcn.h>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,6 +22,17 @@ inline const PluginRegistry& testRegistry() {
     return PluginRegistry::load(folders);
   }();
   return *registry;
+}
+
+/// How many maps the generator "noise" has begun so far.
+inline int noiseMapsBegun() {
+  const std::string file = TEREN_TEST_WORLD_MODULES "/teren-noise.so";
+  void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_NOLOAD);
+  if (module == nullptr) return -1;
+  const auto count = reinterpret_cast<int (*)()>(dlsym(module, "terenTestMapsBegun"));
+  const int begun = count();
+  dlclose(module);
+  return begun;
 }
 
 inline std::shared_ptr<const World> makeTestWorld(const WorldDescription& description) {

@@ -130,5 +130,41 @@ TEST(World, QueriesTheTriangleThatTheBakedSamplesSpan) {
   }
 }
 
+TEST(World, MakesEachMapOnceAQueryThoughTheyDoNotFitIntoItsStore) {
+  // Four maps of 2049 samples a side are more than the store may hold.
+  ASSERT_GT(4 * 2049 * 2049 * sizeof(float), World::kQueryBytes);
+  const auto world = makeTestWorld(worldOf({noise(8192.0, 100.0, 2049)}));
+  const int before = noiseMapsBegun();
+  const SurfacePoint point = world->query({5, 6, 0.3, 0.7});
+  EXPECT_EQ(noiseMapsBegun(), before + 4);
+  EXPECT_EQ(point.height, world->height({5, 6, 0.3, 0.7}));
+  EXPECT_LE(std::fabs(point.height - point.drawn), point.error);
+}
+
+TEST(World, QueriesOnBordersOfPatchesAndCellsAgreeWithTheBakedSamples) {
+  constexpr std::uint64_t kSeed = 81;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomSequence random(kSeed);
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto world = makeTestWorld(randomWorld(random));
+    const int n = world->intervals();
+    const std::int64_t i = below(random, 64) - 32, j = below(random, 64) - 32;
+    const Result<HeightMap> baked = bake(*world, {i, j, 1, 1, 0});
+    ASSERT_TRUE(baked.ok());
+    // The last square of the patch has corners on the borders to the patches east and north.
+    const double inside = 1.0 - 0.25 / n;
+    const SurfacePoint point = world->query({i, j, inside, inside});
+    const auto at = [&](int dx, int dy) { return static_cast<double>((*baked)(n - 1 + dx, n - 1 + dy)); };
+    const double expected = at(0, 0) + 0.75 * (at(1, 0) - at(0, 0)) + 0.75 * (at(1, 1) - at(1, 0));
+    ASSERT_NEAR(point.drawn, expected, 1e-9 * std::max(1.0, std::fabs(expected)));
+    ASSERT_EQ(point.height, world->height({i, j, inside, inside}));
+  }
+}
+
+TEST(World, HasNoNegativeZeroInTheNormalOfFlatGround) {
+  const auto world = makeTestWorld(worldOf({noise(64.0, 0.0)}));
+  for (const double component : world->query({0, 0, 0.25, 0.5}).normal) EXPECT_FALSE(std::signbit(component));
+}
+
 }  // namespace
 }  // namespace teren
