@@ -8,7 +8,7 @@
 #include "teren/Engine.h"
 
 #include "apps/fly/Aircraft.h"
-#include "apps/fly/FrameStatistics.h"
+#include "apps/window/FrameStatistics.h"
 
 namespace teren {
 

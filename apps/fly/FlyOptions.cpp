@@ -1,27 +1,12 @@
 #include "apps/fly/FlyOptions.h"
 
-#include "teren/Quote.h"
-
 #include "apps/fly/Aircraft.h"
 #include "apps/options/CommandLine.h"
 
 namespace teren {
 namespace {
 
-constexpr std::int64_t kMinSide = 64, kMaxSide = 16384;  // [pixels]
-constexpr int kMaxRadius = 64;                           // ViewSettings
-constexpr double kLongestFlight = 1e6;                   // [s]
-
-Result<QSize> readSize(const std::string& text) {
-  const std::size_t times = text.find('x');
-  const std::string width = text.substr(0, times);
-  const std::string height = times == std::string::npos ? "" : text.substr(times + 1);
-  const Result<std::int64_t> columns = wholeArgument("--size", width, kMinSide, kMaxSide);
-  const Result<std::int64_t> rows = wholeArgument("--size", height, kMinSide, kMaxSide);
-  if (columns && rows) return QSize(static_cast<int>(*columns), static_cast<int>(*rows));
-  return Error{"--size is " + inQuotes(text) + " but must be WIDTHxHEIGHT, each from " +
-               std::to_string(kMinSide) + " to " + std::to_string(kMaxSide) + " pixels"};
-}
+constexpr int kMaxRadius = 64;  // ViewSettings
 
 Result<double> readNumber(const CLI::Option& option, double otherwise, double min, double max) {
   if (option.count() == 0) return otherwise;
@@ -35,12 +20,6 @@ Result<int> readWhole(const CLI::Option& option, int otherwise, int min, int max
   return static_cast<int>(*value);
 }
 
-Result<std::string> readFile(const CLI::Option& option) {
-  const std::string file = argument(option);
-  if (option.count() > 0 && file.empty()) return Error{option.get_name() + " names no file"};
-  return file;
-}
-
 }  // namespace
 
 FlyCommandLine::FlyCommandLine(CLI::App& application)
@@ -52,13 +31,7 @@ FlyCommandLine::FlyCommandLine(CLI::App& application)
                   ->type_name("R")),
       speed_(application.add_option("--speed", "at the start, metres per second, 5 to 600 [60]")
                  ->type_name("V")),
-      size_(application.add_option("--size", "of the window in pixels [1280x720]")->type_name("WxH")),
-      seconds_(application.add_option("--seconds", "fly this long, then end")->type_name("S")),
-      screenshot_(
-          application.add_option("--screenshot", "save the last frame as a PNG file")->type_name("FILE")),
-      stats_(
-          application.add_option("--stats", "save figures of the flight as a JSON file")->type_name("FILE")) {
-}
+      window_(application, "fly this long, then end") {}
 
 Result<ViewSettings> FlyCommandLine::view(const World& world) const {
   ViewSettings view = FlyOptions{}.view;
@@ -83,19 +56,9 @@ Result<FlyOptions> FlyCommandLine::resolve(const World& world) const {
   const Result<double> speed = readNumber(*speed_, options.speed, Aircraft::kMinSpeed, Aircraft::kMaxSpeed);
   if (!speed) return speed.error();
   options.speed = *speed;
-  if (size_->count() > 0) {
-    const Result<QSize> size = readSize(argument(*size_));
-    if (!size) return size.error();
-    options.size = *size;
-  }
-  const Result<double> seconds = readNumber(*seconds_, 0.0, 0.0, kLongestFlight);
-  if (!seconds) return seconds.error();
-  if (seconds_->count() > 0) options.seconds = *seconds;
-  for (const auto& [option, file] : {std::pair{screenshot_, &options.screenshot}, {stats_, &options.stats}}) {
-    const Result<std::string> name = readFile(*option);
-    if (!name) return name.error();
-    *file = *name;
-  }
+  const Result<WindowOptions> window = window_.resolve();
+  if (!window) return window.error();
+  options.window = *window;
   return options;
 }
 

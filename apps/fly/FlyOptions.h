@@ -1,16 +1,13 @@
 // The command line of teren-fly.
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include <CLI/CLI.hpp>
-#include <QSize>
 
 #include "teren/Engine.h"
 #include "teren/Result.h"
 
 #include "apps/options/ViewOptions.h"
+#include "apps/window/WindowOptions.h"
 
 namespace teren {
 
@@ -18,9 +15,7 @@ namespace teren {
 struct FlyOptions {
   ViewSettings view = kFlyingView;
   double speed = 60.0;  ///< [m/s]
-  QSize size{1280, 720};
-  std::optional<double> seconds;  ///< how long to fly; empty: until the person quits
-  std::string screenshot, stats;  ///< files; empty: none
+  WindowOptions window;
 };
 
 /// Declares the options on an application, which must live as long as this.
@@ -38,10 +33,7 @@ class FlyCommandLine {
   const CLI::Option* viewLevel_;
   const CLI::Option* radius_;
   const CLI::Option* speed_;
-  const CLI::Option* size_;
-  const CLI::Option* seconds_;
-  const CLI::Option* screenshot_;
-  const CLI::Option* stats_;
+  WindowCommandLine window_;
 };
 
 }  // namespace teren

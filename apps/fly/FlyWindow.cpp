@@ -1,7 +1,6 @@
 #include "apps/fly/FlyWindow.h"
 
 #include <algorithm>
-#include <csignal>
 #include <string>
 
 #include <Inventor/nodes/SoSeparator.h>
@@ -15,7 +14,8 @@
 #include <QVBoxLayout>
 #include <QWheelEvent>
 
-#include "apps/fly/SavedFiles.h"
+#include "apps/window/SavedFiles.h"
+#include "apps/window/WindowProgram.h"
 
 namespace teren {
 namespace {
@@ -27,8 +27,6 @@ constexpr std::chrono::milliseconds kBetweenHiddenFrames(50);
 constexpr std::chrono::milliseconds kBetweenSettlingPictures(250);
 constexpr std::chrono::seconds kSentenceTime(4);
 constexpr std::size_t kFramesShown = 30;  // that the times on the display look back
-
-volatile std::sig_atomic_t quitAsked = 0;
 
 double seconds(FlyWindow::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -71,10 +69,6 @@ FlyWindow::~FlyWindow() {
   delete area_;
 }
 
-void FlyWindow::quitSoon() noexcept {
-  quitAsked = 1;
-}
-
 bool FlyWindow::settle() {
   show();
   area_->show();
@@ -82,16 +76,16 @@ bool FlyWindow::settle() {
   Clock::time_point nextPicture{};
   flight_.settle([this, &nextPicture](std::size_t done, std::size_t wanted) {
     QApplication::processEvents();
-    if (Clock::now() < nextPicture) return !leaving_ && quitAsked == 0;
+    if (Clock::now() < nextPicture) return !leaving_ && !endAsked();
     nextPicture = Clock::now() + kBetweenSettlingPictures;
     const std::size_t percent = wanted == 0 ? 100 : 100 * done / wanted;
     display_.setBanner("making the land: " + std::to_string(percent) + " %");
     updateScene(0.0);
     area_->render();
-    return !leaving_ && quitAsked == 0;
+    return !leaving_ && !endAsked();
   });
   display_.setBanner({});
-  return !leaving_ && quitAsked == 0;
+  return !leaving_ && !endAsked();
 }
 
 void FlyWindow::fly(std::optional<Clock::duration> duration) {
@@ -101,7 +95,7 @@ void FlyWindow::fly(std::optional<Clock::duration> duration) {
 }
 
 bool FlyWindow::isLastFrame(Clock::time_point now) const {
-  if (leaving_ || quitAsked != 0) return true;
+  if (leaving_ || endAsked()) return true;
   return duration_ && now - begin_ >= *duration_ && frameTimes_.count() + 1 >= kFramesAtLeast;
 }
 

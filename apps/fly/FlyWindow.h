@@ -13,10 +13,10 @@
 #include "apps/fly/Daylight.h"
 #include "apps/fly/Flight.h"
 #include "apps/fly/FlyScene.h"
-#include "apps/fly/FrameStatistics.h"
 #include "apps/fly/HeadUpDisplay.h"
 #include "apps/fly/KeyMap.h"
 #include "apps/fly/RenderArea.h"
+#include "apps/window/FrameStatistics.h"
 
 namespace teren {
 
@@ -33,8 +33,8 @@ class FlyWindow : public QWidget {
   /// false if the person closed it meanwhile.
   bool settle();
 
-  /// Starts flying; leaves QApplication::exec() when the person quits or after `duration`. At least
-  /// kFramesAtLeast frames are flown.
+  /// Starts flying; leaves QApplication::exec() when the person quits or asks by a signal, or after
+  /// `duration`. At least kFramesAtLeast frames are flown.
   void fly(std::optional<Clock::duration> duration);
   static constexpr std::size_t kFramesAtLeast = 3;
 
@@ -43,9 +43,6 @@ class FlyWindow : public QWidget {
   /// [ms] between the moments at which successive frames were presented.
   const FrameStatistics& frameTimes() const noexcept { return frameTimes_; }
   std::size_t bytes() const;  ///< the engine's and the graphics buffers'
-
-  /// Asks every window to draw its last frame and leave; may be called from a signal handler.
-  static void quitSoon() noexcept;
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

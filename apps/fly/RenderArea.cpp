@@ -1,8 +1,9 @@
 #include "apps/fly/RenderArea.h"
 
-#include <GL/gl.h>
 #include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/misc/SoContextHandler.h>
+
+#include "apps/window/FramePicture.h"
 
 namespace teren {
 
@@ -34,14 +35,7 @@ QImage RenderArea::renderAndRead() {
 void RenderArea::actualRedraw() {
   SoQtRenderArea::actualRedraw();
   if (overlay_) overlay_(pixels());
-  if (!reading_) return;
-  QImage upsideDown(pixels(), QImage::Format_RGBX8888);
-  glPushClientAttrib(GL_CLIENT_PIXEL_STORE_BIT);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glPixelStorei(GL_PACK_ROW_LENGTH, upsideDown.bytesPerLine() / 4);
-  glReadPixels(0, 0, upsideDown.width(), upsideDown.height(), GL_RGBA, GL_UNSIGNED_BYTE, upsideDown.bits());
-  glPopClientAttrib();
-  picture_ = upsideDown.mirrored().convertToFormat(QImage::Format_RGB888);
+  if (reading_) picture_ = readFrame(pixels());
 }
 
 }  // namespace teren

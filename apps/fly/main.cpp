@@ -1,8 +1,6 @@
 // teren-fly: fly around the landscape.
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -11,20 +9,19 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <Inventor/Qt/SoQt.h>
 #include <QApplication>
 
 #include "teren/Engine.h"
 
 #include "apps/fly/Daylight.h"
 #include "apps/fly/Flight.h"
-#include "apps/fly/FlightReport.h"
 #include "apps/fly/FlyOptions.h"
 #include "apps/fly/FlyWindow.h"
-#include "apps/fly/SavedFiles.h"
 #include "apps/options/CommandLine.h"
 #include "apps/options/WorldOptions.h"
-#include "coin/SoTerrain.h"
+#include "apps/window/FrameReport.h"
+#include "apps/window/SavedFiles.h"
+#include "apps/window/WindowProgram.h"
 
 namespace teren {
 namespace {
@@ -32,26 +29,6 @@ namespace {
 // Where the flight begins: in the default world over a lake's shore, towards a range with snow.
 constexpr double kStartEast = 3040.0, kStartNorth = 11700.0;        // [m]
 constexpr double kStartHeading = 335.0 * std::numbers::pi / 180.0;  // [rad]
-
-/// Qt ends a program without a usable display by abort(); this ends it with a sentence.
-void exitWhenQtGivesUp(QtMsgType type, const QMessageLogContext&, const QString& message) {
-  if (type == QtFatalMsg) {
-    std::fputs("teren-fly: cannot open a window; is DISPLAY set to a running X server?\n", stderr);
-    std::_Exit(kWorkFailed);
-  }
-  if (type == QtDebugMsg || type == QtInfoMsg) return;
-  if (message.contains(QLatin1String("could not connect to display"))) return;  // the sentence above says it
-  std::fprintf(stderr, "teren-fly: %s\n", message.toUtf8().constData());
-}
-
-/// Qt wants a folder of the person's own for its sockets and warns without one.
-void ensureRuntimeFolder() {
-  if (std::getenv("XDG_RUNTIME_DIR") != nullptr) return;
-  static std::string folder = "/tmp/teren-runtime-XXXXXX";
-  if (mkdtemp(folder.data()) == nullptr) return;
-  setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);
-  std::atexit([] { rmdir(folder.c_str()); });
-}
 
 /// On a terminal: how much of the land is there.
 bool settle(FlyWindow& window) {
@@ -63,12 +40,14 @@ bool settle(FlyWindow& window) {
 }
 
 Result<void> saveResults(const FlyOptions& options, const FlyWindow& window, const Flight& flight) {
-  if (!options.screenshot.empty()) {
-    const Result<void> saved = savePicture(window.lastPicture(), options.screenshot);
+  if (!options.window.screenshot.empty()) {
+    const Result<void> saved = savePicture(window.lastPicture(), options.window.screenshot);
     if (!saved) return saved;
   }
-  if (options.stats.empty()) return {};
-  return saveText(flightReport(window.frameTimes(), flight, window.bytes()), options.stats);
+  if (options.window.stats.empty()) return {};
+  return saveText(
+      frameReport(window.frameTimes(), flight.engineTimes(), flight.engine().figures(), window.bytes()),
+      options.window.stats);
 }
 
 Result<void> fly(const FlyOptions& options, std::unique_ptr<Engine> engine) {
@@ -80,12 +59,12 @@ Result<void> fly(const FlyOptions& options, std::unique_ptr<Engine> engine) {
   const Result<Position> position = Position::fromMetres(kStartEast, kStartNorth, engine->world().pitch());
   if (position) start.position = *position;
   Flight flight(std::move(engine), start);
-  FlyWindow window(flight, daylight, options.size);
+  FlyWindow window(flight, daylight, options.window.size);
   if (!settle(window)) return {};
   using Duration = FlyWindow::Clock::duration;
   std::optional<Duration> duration;
-  if (options.seconds) {
-    duration = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*options.seconds));
+  if (options.window.seconds) {
+    duration = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*options.window.seconds));
   }
   window.fly(duration);
   QApplication::exec();
@@ -93,22 +72,6 @@ Result<void> fly(const FlyOptions& options, std::unique_ptr<Engine> engine) {
     std::fprintf(stderr, "teren-fly: %s\n", message.c_str());
   }
   return saveResults(options, window, flight);
-}
-
-/// Qt and Coin live only as long as the flight.
-Result<void> flyInWindow(int argc, char** argv, const FlyOptions& options, std::unique_ptr<Engine> engine) {
-  ensureRuntimeFolder();
-  qInstallMessageHandler(exitWhenQtGivesUp);
-  QApplication application(argc, argv);
-  for (const int signal : {SIGINT, SIGTERM}) {
-    std::signal(signal, [](int) { FlyWindow::quitSoon(); });
-  }
-  QWidget shell;  // SoQt asks for a top-level widget; it is never shown
-  SoQt::init(&shell);
-  SoTerrain::initClass();
-  const Result<void> flown = fly(options, std::move(engine));
-  SoQt::done();
-  return flown;
 }
 
 int run(int argc, char** argv) {
@@ -122,8 +85,8 @@ int run(int argc, char** argv) {
   if (!options) return fail(application, kWrongInput, options.error().message);
   Result<std::unique_ptr<Engine>> engine = Engine::create(*world, {.view = options->view});
   if (!engine) return fail(application, kWrongInput, engine.error().message);
-  int quietCount = 1;  // Qt's own options are not ours
-  const Result<void> flown = flyInWindow(quietCount, argv, *options, std::move(engine).value());
+  const Result<void> flown =
+      runWithWindows("teren-fly", argv, [&] { return fly(*options, std::move(engine).value()); });
   return flown ? kSuccess : fail(application, kWorkFailed, flown.error().message);
 }
 

@@ -1,4 +1,4 @@
-#include "apps/fly/FrameStatistics.h"
+#include "apps/window/FrameStatistics.h"
 
 #include <gtest/gtest.h>
 

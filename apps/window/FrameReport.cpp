@@ -1,4 +1,4 @@
-#include "apps/fly/FlightReport.h"
+#include "apps/window/FrameReport.h"
 
 #include <cmath>
 
@@ -16,12 +16,12 @@ nlohmann::ordered_json object(const Percentiles& percentiles) {
 
 }  // namespace
 
-std::string flightReport(const FrameStatistics& frameTimes, const Flight& flight, std::size_t bytes) {
-  const EngineFigures figures = flight.engine().figures();
+std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameStatistics& engineMicroseconds,
+                        const EngineFigures& figures, std::size_t bytes) {
   nlohmann::ordered_json report;
-  report["frames"] = frameTimes.count();
-  report["frame_ms"] = object(frameTimes.percentiles());
-  report["engine_us"] = object(flight.engineTimes().percentiles());
+  report["frames"] = frameMilliseconds.count();
+  report["frame_ms"] = object(frameMilliseconds.percentiles());
+  report["engine_us"] = object(engineMicroseconds.percentiles());
   report["triangles"] = figures.triangles;
   report["nodes"] = figures.nodes;
   report["bytes"] = bytes;

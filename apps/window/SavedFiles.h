@@ -1,4 +1,4 @@
-// Writes what a flight leaves behind, each file whole or not at all.
+// Writes what a program with a window leaves behind, each file whole or not at all.
 #pragma once
 
 #include <string>

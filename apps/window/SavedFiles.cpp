@@ -1,4 +1,4 @@
-#include "apps/fly/SavedFiles.h"
+#include "apps/window/SavedFiles.h"
 
 #include <QSaveFile>
 #include <QString>
