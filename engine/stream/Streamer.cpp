@@ -11,7 +11,7 @@ namespace teren {
 
 namespace {
 
-constexpr std::size_t kMostMapBytes = std::size_t{64} << 20;
+constexpr std::size_t kMostMapBytes = std::size_t{32} << 20;
 constexpr std::size_t kLeastMapBytes = std::size_t{1} << 20;
 constexpr std::size_t kSlack = std::size_t{256} << 10;  // what bytes() estimates, and what it leaves out
 constexpr std::size_t kMostGroundBuilds = 8;
