@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/apps/fly/PrivateDisplay.h"
+#include "tests/support/PrivateDisplay.h"
 
 namespace teren {
 namespace {

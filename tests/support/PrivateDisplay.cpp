@@ -1,8 +1,9 @@
-#include "tests/apps/fly/PrivateDisplay.h"
+#include "tests/support/PrivateDisplay.h"
 
 #include <array>
 #include <csignal>
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,7 +26,9 @@ PrivateDisplay::PrivateDisplay() {
   server_ = fork();
   if (server_ == 0) {
     close(ends[0]);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // also where the test crashes
     const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
     const std::string number = std::to_string(ends[1]);
     execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1280x720x24", "-nolisten", "tcp",
