@@ -1,0 +1,58 @@
+// The scene graph of a TerrainWidget: a camera and the land.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <Inventor/SbVec3f.h>
+
+#include "teren/Position.h"
+#include "teren/Scene.h"
+
+#include "qt/Viewer.h"
+
+class SbVec2f;
+class SbVec2s;
+class SoPerspectiveCamera;
+class SoSeparator;
+class SoTerrain;
+
+namespace teren {
+
+/// Scene coordinates count from the corner of the eye's patch, so that what is near the eye is exact wherever
+/// in the world it is. Make it after SoTerrain::initClass.
+class TerrainStage {
+ public:
+  TerrainStage();
+  ~TerrainStage();
+  TerrainStage(const TerrainStage&) = delete;
+  TerrainStage& operator=(const TerrainStage&) = delete;
+
+  SoSeparator* root() const noexcept { return root_; }
+  SoTerrain& terrain() const noexcept { return *terrain_; }
+
+  /// Looks from the viewer's place at a height [m] of the world whose pitch [m] this is.
+  void look(const Viewer& viewer, double height, double pitch);
+  /// Puts the haze, and the end of what the camera sees, behind this distance [m].
+  void setViewDistance(double distance);
+  /// `continued`: from the same engine as the one before.
+  void show(std::shared_ptr<const Scene> scene, bool continued);
+
+  /// [m] The water's surface; far below all ground where there is none.
+  double water() const;
+
+  /// The nearest triangle behind a point of a picture of `size` pixels, from (0, 0) at its lower left corner
+  /// to (1, 1): its place in the scene.
+  std::optional<SbVec3f> pick(const SbVec2f& point, const SbVec2s& size) const;
+  /// The place in the world of a point of the scene; empty beyond its end.
+  std::optional<Position> positionOf(const SbVec3f& point) const;
+
+ private:
+  SoSeparator* root_;  // referenced
+  SoPerspectiveCamera* camera_;
+  SoTerrain* terrain_;
+  Position zero_;       // of the scene
+  double pitch_ = 1.0;  // [m] of the world
+};
+
+}  // namespace teren

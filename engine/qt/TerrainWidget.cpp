@@ -1,0 +1,395 @@
+#include "qt/TerrainWidget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Inventor/Qt/SoQt.h>
+#include <Inventor/SbVec2f.h>
+#include <Inventor/SbVec2s.h>
+#include <Inventor/SoDB.h>
+#include <Inventor/nodes/SoSeparator.h>
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QMouseEvent>
+#include <QPointer>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <QWheelEvent>
+
+#include "coin/SoTerrain.h"
+#include "qt/EyeAboveGround.h"
+#include "qt/TerrainArea.h"
+#include "qt/TerrainStage.h"
+
+namespace teren {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::chrono::milliseconds kBetweenUpdates = 16ms;
+constexpr std::chrono::nanoseconds kLeastBudget = 100us, kMostBudget = 1s;
+constexpr qint64 kBetweenFigures = 100;  // [ms]
+// After a widget is shown or resized its native window needs some frames to follow.
+constexpr int kFramesAfterShow = 6;
+constexpr double kRadiansPerPixel = 0.005;
+constexpr double kMostPitch = 1.5;     // [rad] that the mouse can look up or down
+constexpr double kWheelNotch = 120.0;  // in Qt's eighths of a degree
+constexpr double kForwardShare = 0.4;  // of the height above ground, for a notch
+constexpr double kClimbFactor = 1.15;  // for a notch
+
+/// Inventor, SoQt and the node's class, set up once in a process.
+void startInventor() {
+  if (SoQt::getTopLevelWidget() == nullptr) {
+    SoQt::init(new QWidget);  // SoQt asks for a window; it is never shown, and stays as long as Inventor does
+    SoDB::enableRealTimeSensor(FALSE);  // or Inventor's clock would wake the program twelve times a second
+  }
+  SoTerrain::initClass();
+  qRegisterMetaType<Viewer>("teren::Viewer");
+  qRegisterMetaType<EngineFigures>("teren::EngineFigures");
+}
+
+}  // namespace
+
+/// What the widget does between events, and what it remembers.
+class TerrainWidget::Private {
+ public:
+  explicit Private(TerrainWidget& owner);
+
+  Result<void> setWorld(const Result<WorldDescription>& description);
+  Result<void> makeEngine(std::shared_ptr<const World> newWorld, const EngineOptions& newOptions);
+  Result<void> setViewer(const Viewer& next);
+  /// Says an error through the signal too.
+  Result<void> report(Result<void> result) const;
+
+  void wake(int frames);
+  void work();
+  /// True where there is something new to draw.
+  bool showEngine();
+  void look();
+  void drawn();
+  /// Emits what has changed; the receivers may do anything to the widget, deleting it included.
+  void tell(bool resting);
+
+  TerrainWidget& widget;
+  std::shared_ptr<const World> world;
+  EngineOptions options;
+  std::chrono::nanoseconds budget = 4ms;
+  Viewer viewer;
+  std::unique_ptr<Engine> engine;
+  EyeAboveGround* eye = nullptr;  // the engine's
+  bool showsThisEngine = false;   // whether the scene is one of `engine`
+  std::size_t rendererBytes = 0;  // told to the engine
+  double toldHeight = 0.0;        // of the eye, in the last positionChanged
+  QElapsedTimer sinceFigures;
+  int framesToDraw = 0;
+  QPoint dragFrom;
+  TerrainStage stage;
+  std::unique_ptr<TerrainArea> area;  // goes before the stage
+  QTimer timer;
+};
+
+TerrainWidget::Private::Private(TerrainWidget& owner)
+    : widget(owner), area(std::make_unique<TerrainArea>(&owner, [this] { drawn(); })), timer(&owner) {
+  area->setBackgroundColor(stage.terrain().hazeColor.getValue());
+  area->setSceneGraph(stage.root());
+  area->show();
+  timer.setInterval(kBetweenUpdates);
+  timer.callOnTimeout(&owner, [this] { work(); });
+}
+
+// --- The world and its engine
+// -------------------------------------------------------------------------------------
+
+Result<void> TerrainWidget::Private::setWorld(const Result<WorldDescription>& description) {
+  if (!description) return description.error();
+  const Result<std::shared_ptr<const World>> made = World::create(*description, *PluginRegistry::standard());
+  if (!made) return made.error();
+  return makeEngine(*made, options);
+}
+
+Result<void> TerrainWidget::Private::makeEngine(std::shared_ptr<const World> newWorld,
+                                                const EngineOptions& newOptions) {
+  Result<std::unique_ptr<Engine>> made = Engine::create(newWorld, newOptions);
+  if (!made) return made.error();
+  auto newEye = std::make_unique<EyeAboveGround>(eye == nullptr ? newWorld->mean() : eye->ground());
+  eye = newEye.get();
+  engine = std::move(*made);
+  engine->add(std::move(newEye));
+  world = std::move(newWorld);
+  options = newOptions;
+  showsThisEngine = false;
+  rendererBytes = 0;
+  look();
+  wake(0);
+  return {};
+}
+
+Result<void> TerrainWidget::Private::setViewer(const Viewer& next) {
+  if (const Result<void> checked = check(next); !checked) return checked.error();
+  if (next == viewer) return {};
+  viewer = next;
+  look();
+  wake(0);
+  Q_EMIT widget.positionChanged(viewer, widget.eyeHeight());
+  return {};
+}
+
+Result<void> TerrainWidget::Private::report(Result<void> result) const {
+  if (!result) Q_EMIT widget.errorOccurred(QString::fromStdString(result.error().message));
+  return result;
+}
+
+// --- Working and resting
+// ------------------------------------------------------------------------------------------
+
+void TerrainWidget::Private::wake(int frames) {
+  framesToDraw = std::max(framesToDraw, frames);
+  if (widget.isVisible() && !widget.window()->isMinimized()) timer.start();
+}
+
+void TerrainWidget::Private::work() {
+  bool changed = false;
+  if (engine) {
+    engine->setRendererBytes(rendererBytes);
+    engine->update(0.0, budget);
+    changed = showEngine();
+    look();
+  }
+  if (framesToDraw > 0) {
+    --framesToDraw;
+    area->scheduleRedraw();
+  }
+  const bool resting = framesToDraw == 0 && !changed && (!engine || engine->figures().pending == 0);
+  if (resting) timer.stop();
+  tell(resting);
+}
+
+bool TerrainWidget::Private::showEngine() {
+  const std::shared_ptr<const Scene> next = engine->scene();
+  if (next == stage.terrain().scene()) return false;
+  // A new engine has nothing to show at first: until then the landscape before it stays.
+  if (!showsThisEngine && next->meshes().empty()) return false;
+  stage.show(next, showsThisEngine);
+  showsThisEngine = true;
+  return true;
+}
+
+void TerrainWidget::Private::look() {
+  if (!engine) return;
+  eye->setWater(stage.water());
+  eye->put(viewer);
+  stage.look(viewer, eye->motion().height, world->pitch());
+  ViewSettings view = options.view;
+  if (const int drawnRadius = engine->figures().radius; drawnRadius > 0) view.radius = drawnRadius;
+  stage.setViewDistance(view.reach(*world));
+}
+
+void TerrainWidget::Private::drawn() {
+  const std::size_t bytes = stage.terrain().bufferBytes();
+  if (bytes == rendererBytes) return;
+  rendererBytes = bytes;
+  wake(1);  // more may be uploaded with the next frame, and the engine must hear of it
+}
+
+void TerrainWidget::Private::tell(bool resting) {
+  const QPointer<TerrainWidget> alive(&widget);
+  if (!engine) return;
+  for (const std::string& sentence : world->takeMessages()) {
+    Q_EMIT widget.errorOccurred(QString::fromStdString(sentence));
+    if (!alive) return;
+  }
+  if (widget.eyeHeight() != toldHeight) {
+    toldHeight = widget.eyeHeight();
+    Q_EMIT widget.positionChanged(viewer, toldHeight);
+    if (!alive) return;
+  }
+  if (!resting && sinceFigures.isValid() && sinceFigures.elapsed() < kBetweenFigures) return;
+  sinceFigures.start();
+  Q_EMIT widget.figuresChanged(widget.figures());
+}
+
+// --- The widget
+// ---------------------------------------------------------------------------------------------------
+
+TerrainWidget::TerrainWidget(QWidget* parent) : QWidget(parent) {
+  startInventor();
+  private_ = std::make_unique<Private>(*this);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(private_->area->getWidget());
+  QWidget* canvas = private_->area->getGLWidget();
+  canvas->installEventFilter(this);  // after SoQt's own, so it sees the events first
+  canvas->setMouseTracking(true);
+  canvas->setFocusPolicy(Qt::NoFocus);
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+}
+
+TerrainWidget::~TerrainWidget() {
+  const auto last = std::move(private_);  // null already for the events that come of its end
+}
+
+Result<void> TerrainWidget::setWorld(const WorldDescription& description) {
+  return private_->report(private_->setWorld(description));
+}
+
+Result<void> TerrainWidget::setWorldText(const QString& json) {
+  return private_->report(private_->setWorld(WorldDescription::fromJson(json.toStdString(), "the world")));
+}
+
+Result<void> TerrainWidget::setWorldFile(const QString& file) {
+  return private_->report(private_->setWorld(WorldDescription::fromFile(file.toStdString())));
+}
+
+std::shared_ptr<const World> TerrainWidget::world() const {
+  return private_->world;
+}
+
+Result<void> TerrainWidget::setOptions(const EngineOptions& options) {
+  if (private_->world) return private_->report(private_->makeEngine(private_->world, options));
+  private_->options = options;
+  return {};
+}
+
+const EngineOptions& TerrainWidget::options() const noexcept {
+  return private_->options;
+}
+
+void TerrainWidget::setFrameBudget(std::chrono::nanoseconds budget) {
+  private_->budget = std::clamp(budget, kLeastBudget, kMostBudget);
+}
+
+std::chrono::nanoseconds TerrainWidget::frameBudget() const noexcept {
+  return private_->budget;
+}
+
+Result<void> TerrainWidget::setViewer(const Viewer& viewer) {
+  return private_->report(private_->setViewer(viewer));
+}
+
+const Viewer& TerrainWidget::viewer() const noexcept {
+  return private_->viewer;
+}
+
+double TerrainWidget::eyeHeight() const noexcept {
+  return private_->eye == nullptr ? private_->viewer.heightAboveGround : private_->eye->motion().height;
+}
+
+std::optional<GroundPoint> TerrainWidget::pick(const QPoint& point) const {
+  const QWidget* canvas = private_->area->getGLWidget();
+  const QPoint inside = canvas->mapFrom(this, point);
+  if (!canvas->rect().contains(inside)) return std::nullopt;
+  const auto width = static_cast<float>(canvas->width()), height = static_cast<float>(canvas->height());
+  const SbVec2f place((static_cast<float>(inside.x()) + 0.5F) / width,
+                      1.0F - (static_cast<float>(inside.y()) + 0.5F) / height);
+  const SbVec2s size(static_cast<short>(canvas->width()), static_cast<short>(canvas->height()));
+  const std::optional<SbVec3f> picked = private_->stage.pick(place, size);
+  if (!picked) return std::nullopt;
+  const std::optional<Position> position = private_->stage.positionOf(*picked);
+  if (!position) return std::nullopt;
+  return GroundPoint{*position, static_cast<double>((*picked)[2])};
+}
+
+EngineFigures TerrainWidget::figures() const {
+  return private_->engine ? private_->engine->figures() : EngineFigures{};
+}
+
+SoTerrain& TerrainWidget::terrain() const noexcept {
+  return private_->stage.terrain();
+}
+
+QSize TerrainWidget::sizeHint() const {
+  return {640, 400};
+}
+
+// --- Events
+// -------------------------------------------------------------------------------------------------------
+
+bool TerrainWidget::event(QEvent* event) {
+  const bool handled = QWidget::event(event);
+  if (!private_) return handled;  // while it is being made or deleted
+  switch (event->type()) {
+    case QEvent::Show:
+    case QEvent::Resize:
+    case QEvent::ParentChange:
+      private_->wake(kFramesAfterShow);
+      break;
+    case QEvent::Hide:
+      private_->timer.stop();
+      break;
+    default:
+      break;
+  }
+  return handled;
+}
+
+/// The native window of the canvas gets the mouse; the events belong to the widget.
+bool TerrainWidget::eventFilter(QObject* watched, QEvent* event) {
+  auto* canvas = static_cast<QWidget*>(watched);
+  switch (event->type()) {
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonRelease:
+    case QEvent::MouseButtonDblClick:
+    case QEvent::MouseMove: {
+      const auto& mouse = static_cast<const QMouseEvent&>(*event);
+      QMouseEvent moved(mouse.type(), canvas->mapTo(this, mouse.pos()), mouse.windowPos(), mouse.screenPos(),
+                        mouse.button(), mouse.buttons(), mouse.modifiers(), mouse.source());
+      QCoreApplication::sendEvent(this, &moved);
+      return true;
+    }
+    case QEvent::Wheel: {
+      const auto& wheel = static_cast<const QWheelEvent&>(*event);
+      QWheelEvent moved(canvas->mapTo(this, wheel.position().toPoint()), wheel.globalPosition(),
+                        wheel.pixelDelta(), wheel.angleDelta(), wheel.buttons(), wheel.modifiers(),
+                        wheel.phase(), wheel.inverted());
+      QCoreApplication::sendEvent(this, &moved);
+      return true;
+    }
+    default:
+      return QWidget::eventFilter(watched, event);
+  }
+}
+
+void TerrainWidget::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return event->ignore();
+  private_->dragFrom = event->pos();
+  setFocus(Qt::MouseFocusReason);
+}
+
+void TerrainWidget::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) event->ignore();
+}
+
+void TerrainWidget::mouseMoveEvent(QMouseEvent* event) {
+  const QPoint here = event->pos();
+  if (event->buttons().testFlag(Qt::LeftButton)) {
+    const QPoint moved = here - std::exchange(private_->dragFrom, here);
+    Viewer next = viewer();
+    next.heading = std::remainder(next.heading - kRadiansPerPixel * moved.x(), 2.0 * std::numbers::pi);
+    next.pitch = std::clamp(next.pitch + kRadiansPerPixel * moved.y(), -kMostPitch, kMostPitch);
+    const QPointer<TerrainWidget> alive(this);
+    static_cast<void>(setViewer(next));
+    if (!alive) return;
+  }
+  Q_EMIT cursorMoved(here);
+}
+
+void TerrainWidget::wheelEvent(QWheelEvent* event) {
+  const QPoint turned = event->angleDelta();
+  const double notches = (turned.y() != 0 ? turned.y() : turned.x()) / kWheelNotch;
+  Viewer next = viewer();
+  if ((event->modifiers() & (Qt::ShiftModifier | Qt::ControlModifier)) != 0) {
+    next.heightAboveGround = std::clamp(next.heightAboveGround * std::pow(kClimbFactor, notches),
+                                        Viewer::kLowest, Viewer::kHighest);
+  } else if (private_->world) {
+    const double way = notches * kForwardShare * next.heightAboveGround;
+    const Result<Position> there = next.position.movedBy(
+        way * std::sin(next.heading), way * std::cos(next.heading), private_->world->pitch());
+    if (there) next.position = *there;  // else it is at the end of the world
+  }
+  static_cast<void>(setViewer(next));
+}
+
+}  // namespace teren
