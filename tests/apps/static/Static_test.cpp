@@ -18,8 +18,8 @@
 
 #include "apps/static/StaticWindow.h"
 #include "apps/window/WindowProgram.h"
-#include "tests/apps/fly/PrivateDisplay.h"
 #include "tests/apps/static/PictureParts.h"
+#include "tests/support/PrivateDisplay.h"
 
 namespace teren {
 namespace {
