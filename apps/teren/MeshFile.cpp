@@ -4,11 +4,11 @@
 #include <cassert>
 #include <cerrno>
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <string>
 #include <string_view>
 
+#include "teren/HeightSampling.h"
 #include "teren/Parameter.h"
 
 namespace teren {
@@ -97,22 +97,13 @@ class Net {
     out.shortest(heights_(column, row));
   }
   void normal(RowWriter& out, int column, int row) const {
-    const double east = slope(column, columns(), [&](int x) { return heights_(x, row); });
-    const double north = slope(row, rows(), [&](int y) { return heights_(column, y); });
-    const double length = std::sqrt(east * east + north * north + 1.0);
-    out.rounded(-east / length) << " ";
-    out.rounded(-north / length) << " ";
-    out.rounded(1.0 / length);
+    const std::array<double, 3> normal = normalAt(heights_, column, row, place_.spacing);
+    out.rounded(normal[0]) << " ";
+    out.rounded(normal[1]) << " ";
+    out.rounded(normal[2]);
   }
 
  private:
-  template <class HeightAt>
-  double slope(int at, int count, const HeightAt& heightAt) const {
-    const int before = at > 0 ? at - 1 : at, after = at + 1 < count ? at + 1 : at;
-    const double rise = static_cast<double>(heightAt(after)) - static_cast<double>(heightAt(before));
-    return rise / ((after - before) * place_.spacing);
-  }
-
   ConstHeightView heights_;
   const GroundPlace& place_;
 };
