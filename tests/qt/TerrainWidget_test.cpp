@@ -19,7 +19,7 @@
 #include <gtest/gtest.h>
 
 #include "coin/SoTerrain.h"
-#include "tests/qt/Desk.h"
+#include "tests/qt/Sight.h"
 
 namespace teren {
 namespace {
