@@ -5,6 +5,8 @@
 #include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/elements/SoGLCacheContextElement.h>
 #include <Inventor/misc/SoContextHandler.h>
+#include <QWidget>
+#include <QWindow>
 
 namespace teren {
 
@@ -28,8 +30,12 @@ void TerrainArea::initGraphic() {
   getGLRenderAction()->setCacheContext(context_);
 }
 
-void TerrainArea::actualRedraw() {
+void TerrainArea::redraw() {
+  const QWindow* canvas = getGLWidget()->windowHandle();
+  if (canvas != nullptr && canvas->isExposed()) SoQtRenderArea::redraw();  // else it is drawn when it is
+}
 
+void TerrainArea::actualRedraw() {
   SoQtRenderArea::actualRedraw();
   drawn_();
 }

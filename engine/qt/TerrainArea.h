@@ -20,6 +20,7 @@ class TerrainArea : public SoQtRenderArea {
 
  protected:
   void initGraphic() override;
+  void redraw() override;
   void actualRedraw() override;
 
  private:

@@ -132,7 +132,8 @@ Result<void> TerrainWidget::Private::setViewer(const Viewer& next) {
   viewer = next;
   look();
   wake(0);
-  Q_EMIT widget.positionChanged(viewer, widget.eyeHeight());
+  toldHeight = widget.eyeHeight();
+  Q_EMIT widget.positionChanged(viewer, toldHeight);
   return {};
 }
 
@@ -312,8 +313,11 @@ bool TerrainWidget::event(QEvent* event) {
   if (!private_) return handled;  // while it is being made or deleted
   switch (event->type()) {
     case QEvent::Show:
-    case QEvent::Resize:
     case QEvent::ParentChange:
+      window()->installEventFilter(this);  // it is told when it is minimized
+      private_->wake(kFramesAfterShow);
+      break;
+    case QEvent::Resize:
       private_->wake(kFramesAfterShow);
       break;
     case QEvent::Hide:
@@ -327,7 +331,13 @@ bool TerrainWidget::event(QEvent* event) {
 
 /// The native window of the canvas gets the mouse; the events belong to the widget.
 bool TerrainWidget::eventFilter(QObject* watched, QEvent* event) {
-  auto* canvas = static_cast<QWidget*>(watched);
+  if (!private_) return QWidget::eventFilter(watched, event);
+  QWidget* canvas = private_->area->getGLWidget();
+  if (watched == window() && event->type() == QEvent::WindowStateChange) {
+    private_->timer.stop();
+    private_->wake(kFramesAfterShow);
+  }
+  if (watched != canvas) return QWidget::eventFilter(watched, event);
   switch (event->type()) {
     case QEvent::MouseButtonPress:
     case QEvent::MouseButtonRelease:

@@ -1,5 +1,6 @@
 #include "qt/TerrainWidget.h"
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -145,6 +146,23 @@ TEST(TerrainWidget, RestsWhileHiddenAndGoesOnWhenShown) {
   EXPECT_GT(landShare(screenOf(*land)), 0.3);
 }
 
+TEST(TerrainWidget, RestsWhileItsWindowIsMinimized) {
+  QWidget window;
+  auto* layout = new QVBoxLayout(&window);
+  auto* land = new TerrainWidget;
+  layout->addWidget(land);
+  window.show();
+  showSmallLand(*land);
+  ASSERT_TRUE(isWorking(*land));
+  window.setWindowState(Qt::WindowMinimized);
+  EXPECT_FALSE(isWorking(*land));
+  ASSERT_TRUE(land->setViewer({.position = {5, 0, 0.0, 0.0}}).ok());
+  EXPECT_FALSE(isWorking(*land));
+  window.setWindowState(Qt::WindowNoState);
+  EXPECT_TRUE(isWorking(*land));
+  EXPECT_TRUE(comesToRest(*land));
+}
+
 TEST(TerrainWidget, SurvivesReparentingAndTheSwitchingOfTabs) {
   TerrainWidget* land = landAtRest().release();
   const QImage before = screenOf(*land);
@@ -228,9 +246,14 @@ TEST(TerrainWidget, StandsBesideAnotherInOneWindow) {
 TEST(TerrainWidget, KeepsTheLandUntilTheNextWorldHasSome) {
   const auto land = landAtRest();
   const auto before = land->terrain().scene();
+  land->setFrameBudget(std::chrono::microseconds(100));
   showSmallLand(*land, 7);
-  EXPECT_EQ(land->terrain().scene(), before);
-  ASSERT_TRUE(comesToRest(*land));
+  bool workedUnseen = false;
+  for (int turn = 0; turn < 2000 && land->terrain().scene() == before; ++turn) {
+    workedUnseen |= land->figures().slices > 0;
+    QTest::qWait(1);
+  }
+  EXPECT_TRUE(workedUnseen) << "all was there at once: nothing is tested";
   EXPECT_NE(land->terrain().scene(), before);
   EXPECT_FALSE(land->terrain().scene()->meshes().empty());
   EXPECT_EQ(land->world()->seed(), 7U);
@@ -293,18 +316,30 @@ TEST(TerrainWidget, ReportsFiguresWhileItWorksAndWhenItRests) {
   const auto last = told.back()[0].value<EngineFigures>();
   EXPECT_EQ(last.pending, 0U);
   EXPECT_EQ(last.slices, land->figures().slices);
-  ASSERT_GT(land->terrain().bufferBytes(), 100'000U);
-  EXPECT_GT(last.bytes, land->terrain().bufferBytes()) << "what is on the graphics card counts";
+  EXPECT_EQ(last.bytes, land->figures().bytes);
 }
+
+/// Stands where it is put.
+class Post final : public Object {
+ public:
+  explicit Post(double height) { motion_.height = height; }
+  void update(double /*dt*/, const Ground& /*ground*/) override {}
+  Motion motion() const override { return motion_; }
+
+ private:
+  Motion motion_;
+};
 
 TEST(TerrainWidget, CountsWhatIsOnTheGraphicsCardUnderItsEnginesCap) {
   const auto land = landAtRest();
-  const std::size_t shown = land->figures().bytes, buffers = land->terrain().bufferBytes();
-  TerrainWidget unseen;
-  showSmallLand(unseen);
-  EXPECT_EQ(unseen.figures().bytes, 0U);
-  EXPECT_GT(shown, buffers);
-  EXPECT_GT(buffers, 0U);
+  const auto undrawn = Engine::create(land->world(), land->options());
+  ASSERT_TRUE(undrawn.ok());
+  (*undrawn)->add(std::make_unique<Post>(land->eyeHeight()));
+  (*undrawn)->settle();
+  const auto held = static_cast<double>((*undrawn)->figures().bytes);
+  const auto buffers = static_cast<double>(land->terrain().bufferBytes());
+  ASSERT_GT(buffers, 100'000.0);
+  EXPECT_NEAR(static_cast<double>(land->figures().bytes), held + buffers, 0.1 * buffers);
 }
 
 TEST(TerrainWidget, ShowsTheSameLandWithWorkers) {
