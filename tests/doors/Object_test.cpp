@@ -11,6 +11,7 @@
 
 #include "teren/Engine.h"
 
+#include "tests/doors/Refusal.h"
 #include "tests/doors/Registry.h"
 
 namespace teren {
@@ -64,12 +65,57 @@ struct Stage {
   Resting* odd;
 };
 
+TEST(ImpossibleObject, LeavesTheOthersTheirGroundAndTheView) {
+  for (const std::size_t active : {std::size_t{0}, std::size_t{1}}) {
+    Stage stage;
+    stage.engine->setActive(active);
+    stage.engine->settle();
+    for (const Motion& motion : impossibleMotions()) {
+      stage.odd->say(motion);
+      stage.engine->update(1.0 / 60.0, std::chrono::milliseconds(2));
+      stage.engine->settle();
+      ASSERT_EQ(stage.engine->figures().pending, 0U);
+      ASSERT_EQ(stage.engine->figures().nodes, 9U);
+      ASSERT_TRUE(stage.engine->drawnHeight(Stage::kSound.position).has_value());
+      ASSERT_TRUE(stage.engine->ground().height(Stage::kSound.position).has_value());
+    }
+    const std::vector<std::string> said = stage.engine->takeMessages();
+    ASSERT_EQ(said.size(), 1U) << "each object is named once";
+    expectOneSentence(said[0], {"object 2", "keeps it where it was"});
+  }
+}
+
+TEST(ImpossibleObject, CountsAsWhereItWasLast) {
+  Stage stage;
+  stage.engine->setActive(1);
+  const Motion far{{1000, -1000, 0.5, 0.5}};
+  stage.odd->say(far);
+  stage.engine->settle();
+  stage.odd->say({{kMost, kLeast, kNaN, kNaN}});
+  stage.engine->settle();
+  EXPECT_TRUE(stage.engine->drawnHeight(far.position).has_value());
+  EXPECT_FALSE(stage.engine->drawnHeight(Stage::kSound.position).has_value())
+      << "the view stays with the object";
+  stage.odd->say(Stage::kSound);
+  stage.engine->settle();
+  EXPECT_TRUE(stage.engine->drawnHeight(Stage::kSound.position).has_value()) << "and goes on with it";
+}
+
+TEST(ImpossibleObject, FromTheStartCountsAsAtTheWorldsZero) {
+  auto engine = Engine::create(smallWorld(), {.view = {1, 1}}).value();
+  engine->add(std::make_unique<Resting>(Motion{{kLeast, kMost, kInfinity, kNaN}, kNaN, kNaN, kNaN, kNaN}));
+  engine->settle();
+  EXPECT_EQ(engine->figures().nodes, 9U);
+  EXPECT_TRUE(engine->drawnHeight({0, 0, 0.0, 0.0}).has_value());
+}
+
 TEST(ImpossiblePosition, HasNoHeight) {
   Stage stage;
   stage.engine->settle();
   for (const Motion& motion : impossibleMotions()) {
     if (motion.position.valid()) continue;
     EXPECT_FALSE(stage.engine->drawnHeight(motion.position).has_value());
+    EXPECT_FALSE(stage.engine->finestHeight(motion.position).has_value());
     EXPECT_FALSE(stage.engine->ground().height(motion.position).has_value());
   }
 }
