@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "teren/Hash.h"
 
 #include "generators/fault/FaultFormation.h"
+#include "generators/filter/BandFilter.h"
 #include "generators/filter/MatrixReference.h"
 #include "tests/support/AllocationCount.h"
 #include "tests/support/SlicedWork.h"
@@ -281,6 +283,25 @@ TEST(MatrixFilter, ResidualBoundsWhatTheFilteredCoarseMapDrawsOfFaults) {
   }
   EXPECT_EQ(filterOf(kSmooth).residual(0.0, 0), 0.0);
   EXPECT_EQ(filterOf("1", 5).residual(2.5, 3), 2.5);
+}
+
+TEST(MatrixFilter, ResidualBoundsAlsoWhatFollowsAnotherFilter) {
+  const FaultFormation formation(150, 1.0);
+  const MatrixFilter first = filterOf(kWide, 3);
+  const BandFilter band(0.9, 5);
+  const auto both = [&](HeightMap map) {
+    finish(*band.begin(map.view()));
+    return filtered(first, std::move(map));
+  };
+  for (int level = 1; level <= 3; ++level) {
+    double square = 0.0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const HeightMap raw = faults(mixBits(seed), 257);
+      square += test::squaredError(both(raw), both(test::subsampled(raw, level)), level);
+    }
+    const double before = band.residual(formation.residual(level, 257), level);
+    EXPECT_LE(std::sqrt(square / 20.0), first.residual(before, level)) << "level " << level;
+  }
 }
 
 TEST(MatrixFilter, RefusesPassesThatMagnifyWithoutEnd) {
