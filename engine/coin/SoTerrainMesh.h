@@ -1,8 +1,10 @@
 // One mesh of a landscape's snapshot as a shape: what SoTerrain's hidden children are.
 #pragma once
 
+#include <array>
 #include <memory>
 
+#include <Inventor/SbVec3f.h>
 #include <Inventor/nodes/SoShape.h>
 #include <Inventor/nodes/SoSubNode.h>
 
@@ -28,6 +30,9 @@ class SoTerrainMesh : public SoShape {
   const std::shared_ptr<const teren::Mesh>& mesh() const noexcept { return mesh_; }
 
   void getPrimitiveCount(SoGetPrimitiveCountAction* action) override;
+  /// Adds points and normals, without details. Looks only at triangles near the ray, so it costs nanoseconds
+  /// a triangle where Inventor's general way costs a hundred.
+  void rayPick(SoRayPickAction* action) override;
 
  protected:
   ~SoTerrainMesh() override;
@@ -35,6 +40,10 @@ class SoTerrainMesh : public SoShape {
   void generatePrimitives(SoAction* action) override;
 
  private:
+  SbVec3f point(const teren::SurfaceVertex& vertex) const;
+  static SbVec3f normal(const teren::SurfaceVertex& vertex);
+  void pickTriangle(SoRayPickAction& action, const std::array<const teren::SurfaceVertex*, 3>& corners) const;
+
   std::shared_ptr<const teren::Mesh> mesh_;
   float step_ = 1.0F;  // [m] between the mesh's own samples
 };

@@ -1,5 +1,6 @@
 #include "coin/SoTerrain.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include <Inventor/SbVec3d.h>
 #include <Inventor/SbViewportRegion.h>
 #include <Inventor/SoDB.h>
 #include <Inventor/SoFullPath.h>
@@ -31,6 +33,7 @@
 #include <gtest/gtest.h>
 
 #include "teren/Engine.h"
+#include "teren/Hash.h"
 
 #include "coin/SoTerrainMesh.h"
 #include "tests/coin/OffscreenView.h"
@@ -321,6 +324,73 @@ TEST(SoTerrain, CallbacksAndCountsSeeEveryTriangleInItsPlace) {
   SoGetPrimitiveCountAction count(kRegion);
   count.apply(stage.root);
   EXPECT_EQ(count.getTriangleCount(), seen.count);
+}
+
+struct Corners {
+  SbVec3d a, b, c;
+};
+
+void collectTriangle(void* data, SoCallbackAction* action, const SoPrimitiveVertex* a,
+                     const SoPrimitiveVertex* b, const SoPrimitiveVertex* c) {
+  const auto place = [action](const SoPrimitiveVertex* vertex) {
+    SbVec3f point;
+    action->getModelMatrix().multVecMatrix(vertex->getPoint(), point);
+    return SbVec3d(point);
+  };
+  static_cast<std::vector<Corners>*>(data)->push_back({place(a), place(b), place(c)});
+}
+
+/// How far along the ray (in lengths of `way`) it meets a triangle; infinity where it does not.
+/// (Moeller and Trumbore 1997)
+double meets(const SbVec3d& from, const SbVec3d& way, const Corners& triangle) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const SbVec3d ab = triangle.b - triangle.a, ac = triangle.c - triangle.a;
+  const SbVec3d across = way.cross(ac), away = from - triangle.a;
+  const double volume = ab.dot(across);
+  const double u = away.dot(across) / volume;
+  const SbVec3d turned = away.cross(ab);
+  const double v = way.dot(turned) / volume, t = ac.dot(turned) / volume;
+  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 ? t : kNever;
+}
+
+TEST(SoTerrain, IsPickedWhereItsNearestTriangleIs) {
+  const Stage stage;
+  stage.terrain->setScene(makeScene(
+      {.height = [](double x, double y) { return 9.0 * std::sin(0.7 * x) * std::cos(0.9 * y) + 0.1 * x; }}));
+  std::vector<Corners> triangles;
+  SoCallbackAction callback(kRegion);
+  callback.addTriangleCallback(SoTerrainMesh::getClassTypeId(), collectTriangle, &triangles);
+  callback.apply(stage.root);
+  constexpr std::uint64_t kSeed = 12;
+  SCOPED_TRACE(kSeed);
+  RandomSequence random(kSeed);
+  const auto uniform = [&random](double low, double high) {
+    return low + (high - low) * static_cast<double>(random.nextBits(53)) * 0x1p-53;
+  };
+  int hits = 0;
+  for (int ray = 0; ray < 300; ++ray) {
+    // From all around, mostly nearly level, as the eye of a person looks over land.
+    const SbVec3f from(static_cast<float>(uniform(-60.0, 190.0)), static_cast<float>(uniform(-60.0, 190.0)),
+                       static_cast<float>(uniform(10.0, 40.0)));
+    const SbVec3f to(static_cast<float>(uniform(0.0, 128.0)), static_cast<float>(uniform(0.0, 128.0)), 3.0F);
+    SbVec3f way = to - from;
+    way.normalize();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Corners& triangle : triangles) {
+      nearest = std::min(nearest, meets(SbVec3d(from), SbVec3d(way), triangle));
+    }
+    SoRayPickAction action(kRegion);
+    action.setRay(from, way, 0.0F, 1000.0F);
+    action.apply(stage.root);
+    const SoPickedPoint* picked = action.getPickedPoint();
+    ASSERT_EQ(picked != nullptr, std::isfinite(nearest)) << ray;
+    if (picked == nullptr) continue;
+    ++hits;
+    EXPECT_NEAR(static_cast<double>((picked->getPoint() - from).length()), nearest, 2e-3) << ray;
+    EXPECT_NEAR(picked->getNormal().length(), 1.0F, 1e-5F);
+    EXPECT_GT(picked->getNormal()[2], 0.0F);
+  }
+  EXPECT_GT(hits, 100);
 }
 
 TEST(SoTerrain, ShowsTheLastSnapshotItWasGiven) {
