@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "apps/fly/AircraftShape.h"
+#include "apps/fly/FlightFigures.h"
 
 namespace teren {
 namespace {
@@ -23,6 +27,12 @@ constexpr double kLookAheadTime = 12.0;      // [s]
 constexpr double kLookAheadAtLeast = 500.0;  // [m]
 constexpr int kNearLooks = 4, kFarLooks = 20;
 
+constexpr double kBumpRate = 6.0;         // [m/s] at which it leaves the ground it has hit, at least
+constexpr double kSpeedKept = 0.7;        // share of its speed that a blow leaves it
+constexpr double kUnfeltLift = 0.02;      // [m] the ground lifts it by this much without a blow
+constexpr double kScriptRollTime = 0.35;  // [s] as the pilot's
+constexpr double kGravity = 9.81;         // [m/s^2]
+
 constexpr double kClearanceRate = 25.0;  // [m/s] at full climb, plus
 constexpr double kClearanceShare = 0.5;  // [1/s] of the clearance
 
@@ -39,7 +49,10 @@ double wrapped(double angle) {
 }  // namespace
 
 Aircraft::Aircraft(const AircraftStart& start)
-    : position_(start.position),
+    : name_(start.name),
+      model_(aircraftShape(start.paint)),
+      script_(start.script),
+      position_(start.position),
       waterLevel_(std::isnan(start.waterLevel) ? -std::numeric_limits<double>::infinity() : start.waterLevel),
       clearance_(bounded(start.clearance, kMinClearance, kMaxClearance, AircraftStart{}.clearance)),
       height_(clearance_ + (std::isfinite(waterLevel_) ? waterLevel_ : 0.0)),
@@ -51,7 +64,40 @@ void Aircraft::setControls(const AircraftControls& controls) noexcept {
                bounded(controls.climb, -1.0, 1.0, 0.0)};
 }
 
+bool Aircraft::isHeld(std::string_view one, std::string_view other) const {
+  return heldKeys_.contains(one) || heldKeys_.contains(other);
+}
+
+// A key counts as itself, so holding W and the up arrow and letting one go still means faster.
+bool Aircraft::handle(const InputEvent& event) {
+  constexpr std::array<std::string_view, 10> kKeys{"Up", "W",     "Down", "S", "Left",
+                                                   "A",  "Right", "D",    "R", "F"};
+  if (std::find(kKeys.begin(), kKeys.end(), event.name) == kKeys.end()) return false;
+  if (event.value > 0.0) {
+    heldKeys_.emplace(event.name);
+    script_.reset();
+  } else if (const auto held = heldKeys_.find(event.name); held != heldKeys_.end()) {
+    heldKeys_.erase(held);
+  }
+  const auto between = [](bool less, bool more) { return (more ? 1.0 : 0.0) - (less ? 1.0 : 0.0); };
+  setControls({between(isHeld("Left", "A"), isHeld("Right", "D")),
+               between(isHeld("Down", "S"), isHeld("Up", "W")), between(isHeld("F", "F"), isHeld("R", "R"))});
+  return true;
+}
+
+void Aircraft::letGo() {
+  heldKeys_.clear();
+  setControls({});
+}
+
+std::vector<KeyHelp> Aircraft::keys() const {
+  return {{"Up, Down  or  W, S", "faster, slower"},
+          {"Left, Right  or  A, D", "turn"},
+          {"R, F", "climb, descend"}};
+}
+
 void Aircraft::update(double dt, const Ground& ground) {
+  pitch_ = ground.pitch();
   if (std::isfinite(dt) && dt > 0.0) {
     const double steps = std::ceil(dt / kMaxStep);
     for (double done = 0.0; done < steps; done += 1.0) step(dt / steps, ground);
@@ -62,9 +108,12 @@ void Aircraft::update(double dt, const Ground& ground) {
 }
 
 void Aircraft::step(double dt, const Ground& ground) {
-  steer(dt);
+  touchedSeconds_ += dt;
+  const bool scripted = followScript(dt);
+  if (!scripted) steer(dt);
   follow(dt, ground);
-  move(dt, ground);
+  if (!scripted) move(dt, ground);
+  height_ += climbRate_ * dt;
   stayAbove(ground);
 }
 
@@ -82,7 +131,29 @@ void Aircraft::move(double dt, const Ground& ground) {
   const Result<Position> next =
       position_.movedBy(distance * std::sin(heading_), distance * std::cos(heading_), ground.pitch());
   if (next) position_ = *next;
-  height_ += climbRate_ * dt;
+}
+
+// Where the script says and as fast, leaning into its turns. Its end is the end of the world or a collision.
+bool Aircraft::followScript(double dt) {
+  if (!script_) return false;
+  scriptSeconds_ += dt;
+  const Result<Motion> next = script_->at(scriptSeconds_);
+  if (!next) {
+    script_.reset();
+    return false;
+  }
+  const double before = heading_;
+  position_ = next->position;
+  speed_ = std::sqrt(next->east * next->east + next->north * next->north);
+  turnTo(next->east, next->north);
+  const double rate = std::remainder(heading_ - before, kFullTurn) / dt;
+  const double wanted = std::clamp(std::atan(rate * speed_ / kGravity), -kMaxRoll, kMaxRoll);
+  roll_ += (wanted - roll_) * -std::expm1(-dt / kScriptRollTime);
+  return true;
+}
+
+void Aircraft::turnTo(double east, double north) {
+  if (east != 0.0 || north != 0.0) heading_ = wrapped(std::atan2(east, north));
 }
 
 // Aims at the height it should have, with the climb rate and its change limited: a smooth path, which can be
@@ -130,8 +201,12 @@ void Aircraft::stayAbove(const Ground& ground) {
     heightAboveGround_.reset();
     return;
   }
-  if (height_ < *low + kHardClearance) {
+  if (const double lift = *low + kHardClearance - height_; lift > 0.0) {
     height_ = *low + kHardClearance;
+    if (flying_ && lift > kUnfeltLift) {
+      say("the ground", std::hypot(speed_, climbRate_));
+      climbRate_ = std::max(climbRate_, kBumpRate);
+    }
     climbRate_ = std::max(climbRate_, 0.0);
   }
   heightAboveGround_ = height_ - *low;
@@ -147,8 +222,48 @@ Motion Aircraft::motion() const {
   return {position_, height_, speed_ * std::sin(heading_), speed_ * std::cos(heading_), climbRate_};
 }
 
-Pose Aircraft::pose() const noexcept {
-  return {position_, height_, heading_, std::atan2(climbRate_, speed_), roll_};
+void Aircraft::place(const Motion& motion) {
+  position_ = motion.position;
+  height_ = motion.height;
+  turnTo(motion.east, motion.north);
+  speed_ = std::clamp(std::hypot(motion.east, motion.north), kMinSpeed, kMaxSpeed);
+  climbRate_ = motion.up;
+}
+
+// Thrown back along the normal: off the ground by its whole speed into it, off another of equal mass by half
+// of the speed between them.
+void Aircraft::collided(const Contact& contact) {
+  script_.reset();
+  Motion after = contact.motion;
+  const auto& n = contact.normal;
+  const auto& other = contact.otherVelocity;
+  const double into =
+      (other[0] - after.east) * n[0] + (other[1] - after.north) * n[1] + (other[2] - after.up) * n[2];
+  const double share = std::max(0.0, into) * (1.0 + kBounce) * (contact.other ? 0.5 : 1.0);
+  after.east = kSpeedKept * (after.east + share * n[0]);
+  after.north = kSpeedKept * (after.north + share * n[1]);
+  after.up += share * n[2];
+  if (!contact.other) after.up = std::max(after.up, kBumpRate);
+  place(after);
+  say(contact.other ? contact.other->name() : "the ground", into);
+}
+
+void Aircraft::say(const std::string& what, double speed) {
+  ++touches_;
+  touched_ = what + " at " + groupedNumber(speed, 0) + " m/s";
+  touchedSeconds_ = 0.0;
+}
+
+std::vector<DisplayLine> Aircraft::headUpDisplay() const {
+  std::vector<DisplayLine> lines =
+      flightLines({position_, pitch_, height_, heightAboveGround_, speed_, heading_});
+  if (script_) lines.push_back({"pilot", "follows a script"});
+  if (touchedSeconds_ < kTouchShown) lines.push_back({"HIT", touched_, true});
+  return lines;
+}
+
+Attitude Aircraft::attitude() const {
+  return {heading_, std::atan2(climbRate_, speed_), roll_};
 }
 
 }  // namespace teren

@@ -2,20 +2,19 @@
 // before rising ground, and it is never below the ground.
 #pragma once
 
+#include <array>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "teren/Object.h"
+#include "teren/Script.h"
 
 namespace teren {
-
-/// Where an object is and how it is turned. Angles in radians: heading clockwise from north, [0, 2 pi);
-/// pitch and roll positive for nose up and right wing down.
-struct Pose {
-  Position position = {};
-  double height = 0.0;  ///< [m]
-  double heading = 0.0, pitch = 0.0, roll = 0.0;
-};
 
 /// What the pilot's hands do, each from -1 to 1; 0 lets go.
 struct AircraftControls {
@@ -31,33 +30,58 @@ struct AircraftStart {
   double clearance = 130.0;  ///< [m] kMinClearance ... kMaxClearance; how high above the ground it flies
   /// [m] Water counts as ground. Minus infinity where there is none.
   double waterLevel = -std::numeric_limits<double>::infinity();
+  std::string name = "aircraft";
+  std::array<float, 3> paint{0.80F, 0.12F, 0.08F};
+  /// Flies this way, at its own height, until the pilot touches the controls or it hits something.
+  std::shared_ptr<const Script> script = {};
 };
 
-/// Follows the ground at a clearance the pilot chooses. Deterministic: the same start, ground, controls and
-/// sequence of dt give the same flight on one machine.
+/// Follows the ground at a clearance the pilot chooses. What it hits throws it back: it loses speed, bounces,
+/// and says so on its display. Deterministic: the same start, ground, controls and sequence of dt give the
+/// same flight on one machine.
 class Aircraft : public Object {
  public:
   static constexpr double kMinSpeed = 5.0, kMaxSpeed = 600.0;         // [m/s]
   static constexpr double kMinClearance = 15.0, kMaxClearance = 3e3;  // [m] where the pilot may set it
   static constexpr double kHardClearance = 4.0;                       // [m] it is never lower than this
-  static constexpr double kTurnRate = 0.5;                            // [rad/s] at full turn
-  static constexpr double kMaxRoll = 0.8;                             // [rad] at full turn
-  static constexpr double kMaxStep = 1.0 / 30.0;                      // [s] longer updates are divided
+  static constexpr double kRadius = 3.0;                              // [m] of its collision sphere
+  static constexpr double kBounce = 0.4;  // share of the speed into what it hits that it is thrown back with
+  static constexpr double kTouchShown = 3.0;      // [s] for which the display says what it hit
+  static constexpr double kTurnRate = 0.5;        // [rad/s] at full turn
+  static constexpr double kMaxRoll = 0.8;         // [rad] at full turn
+  static constexpr double kMaxStep = 1.0 / 30.0;  // [s] longer updates are divided
 
   /// Values outside their ranges are brought inside. Until it first moves on over known ground, every
   /// update puts it at the height it should have there, as far as the ground is known; without any, that is
   /// the water's level or 0, plus the clearance.
   explicit Aircraft(const AircraftStart& start);
 
+  std::string name() const override { return name_; }
   void setControls(const AircraftControls& controls) noexcept;
+  /// Arrows or W A S D, R and F.
+  bool handle(const InputEvent& event) override;
+  void letGo() override;
+  std::vector<KeyHelp> keys() const override;
 
   /// Moves on by dt [s]; a dt that is not positive and finite only looks at the ground. Where no ground is
   /// known, ahead or below, it keeps its height; at the world's end it stands still. Costs about 25 questions
   /// to the ground per kMaxStep of dt.
   void update(double dt, const Ground& ground) override;
   Motion motion() const override;
+  /// Of the velocity, its speed and direction are brought inside what an aircraft can do.
+  void place(const Motion& motion) override;
 
-  Pose pose() const noexcept;
+  std::optional<CollisionSphere> collisionSphere() const override { return CollisionSphere{kRadius}; }
+  void collided(const Contact& contact) override;
+
+  std::vector<DisplayLine> headUpDisplay() const override;
+  const Model& model() const override { return model_; }
+  Attitude attitude() const override;
+
+  /// How often it has hit something, and what it says about the last time.
+  int touches() const noexcept { return touches_; }
+  const std::string& touched() const noexcept { return touched_; }
+  bool followsScript() const noexcept { return script_ != nullptr; }
   double speed() const noexcept { return speed_; }          ///< [m/s] over ground
   double heading() const noexcept { return heading_; }      ///< [rad] [0, 2 pi)
   double clearance() const noexcept { return clearance_; }  ///< [m] as chosen
@@ -68,13 +92,23 @@ class Aircraft : public Object {
   void step(double dt, const Ground& ground);
   void steer(double dt);
   void move(double dt, const Ground& ground);
+  bool followScript(double dt);
   void follow(double dt, const Ground& ground);
   void stayAbove(const Ground& ground);
+  void turnTo(double east, double north);
+  void say(const std::string& what, double speed);
+  bool isHeld(std::string_view one, std::string_view other) const;
   std::optional<double> floor(const Position& position, const Ground& ground) const;
   std::optional<double> heightToAimAt(const Ground& ground) const;
 
+  std::string name_;
+  Model model_;
+  std::shared_ptr<const Script> script_;
+  double scriptSeconds_ = 0.0;
   AircraftControls controls_;
+  std::set<std::string, std::less<>> heldKeys_;
   Position position_;
+  double pitch_ = 64.0;  // [m] of the world it flies in, as it learnt at its last update
   double waterLevel_;
   double clearance_;
   double height_;
@@ -82,6 +116,9 @@ class Aircraft : public Object {
   double speed_, climbRate_ = 0.0;
   bool flying_ = false;  // whether it ever moved over known ground
   std::optional<double> heightAboveGround_;
+  int touches_ = 0;
+  std::string touched_;
+  double touchedSeconds_ = kTouchShown;  // since then
 };
 
 }  // namespace teren

@@ -23,6 +23,12 @@ double turnBetween(double from, double to) {
 
 }  // namespace
 
+Pose poseOf(const Object& object) {
+  const Motion motion = object.motion();
+  const Attitude attitude = object.attitude();
+  return {motion.position, motion.height, attitude.heading, attitude.pitch, attitude.roll};
+}
+
 void CameraRig::update(double dt, const CameraMoves& moves, const Pose& object) {
   Offset3& at = offset();
   const double rate = kMoveRate + kMoveShare * std::hypot(at.forward, at.right, at.up);
@@ -61,7 +67,7 @@ Viewpoint CameraRig::viewpoint(const Pose& object, const Ground& ground, double 
   const bool third = person_ == Person::third;
   Viewpoint view;
   view.fieldOfView = fieldOfView_;
-  Pose& eye = view.attitude;
+  Pose& eye = view.pose;
   eye.heading = object.heading + lookRight_ - (third ? lag_ : 0.0);
   const double tilt = third ? kThirdTilt : kPitchFollowed * object.pitch;
   eye.pitch = std::clamp(tilt + lookUp_, -kMaxPitch, kMaxPitch);

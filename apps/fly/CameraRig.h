@@ -4,13 +4,19 @@
 
 #include "teren/Object.h"
 
-#include "apps/fly/Aircraft.h"
-
 namespace teren {
 
-/// The camera: where it is in the world and how it is turned. Angles as in Pose.
+/// Where an object is and how it is turned.
+struct Pose {
+  Position position = {};
+  double height = 0.0;                            ///< [m]
+  double heading = 0.0, pitch = 0.0, roll = 0.0;  ///< [rad] as in Attitude
+};
+Pose poseOf(const Object& object);
+
+/// The camera: where it is in the world and how it is turned. Angles as in Attitude.
 struct Viewpoint {
-  Pose attitude;
+  Pose pose;
   double fieldOfView = 0.0;  ///< [rad] of the picture's height
 };
 

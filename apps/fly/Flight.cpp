@@ -1,28 +1,36 @@
 #include "apps/fly/Flight.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace teren {
 namespace {
 
-constexpr double kWingmanRight = 34.0, kWingmanBehind = -28.0;  // [m] of the leader
-constexpr double kWingmanHigher = 6.0;                          // [m]
+constexpr std::array<float, 3> kBlue{0.05F, 0.28F, 0.60F};
 
-AircraftStart wingman(const AircraftStart& leader, double pitch) {
-  AircraftStart start = leader;
-  const double sine = std::sin(leader.heading), cosine = std::cos(leader.heading);
-  const Result<Position> position = leader.position.movedBy(
-      kWingmanRight * cosine - kWingmanBehind * sine, -kWingmanRight * sine - kWingmanBehind * cosine, pitch);
+AircraftStart passing(const AircraftStart& first, double pitch) {
+  AircraftStart start = first;
+  start.name = "the second aircraft";
+  start.paint = kBlue;
+  start.clearance = std::max(Aircraft::kMinClearance, first.clearance - Flight::kLower);
+  const double east = std::sin(first.heading), north = std::cos(first.heading);
+  const Result<Position> position = first.position.movedBy(
+      -Flight::kLeft * north - Flight::kBehind * east, Flight::kLeft * east - Flight::kBehind * north, pitch);
   if (position) start.position = *position;
-  start.clearance += kWingmanHigher;
+  const auto script = straightScript({.start = start.position,
+                                      .east = east,
+                                      .north = north,
+                                      .speed = first.speed + Flight::kFaster,
+                                      .pitch = pitch});
+  if (script) start.script = *script;
   return start;
 }
 
 }  // namespace
 
 Flight::Flight(std::unique_ptr<Engine> engine, const AircraftStart& start) : engine_(std::move(engine)) {
-  for (const AircraftStart& each : {start, wingman(start, engine_->world().pitch())}) {
+  for (const AircraftStart& each : {start, passing(start, engine_->world().pitch())}) {
     auto aircraft = std::make_unique<Aircraft>(each);
     aircraft_.push_back(aircraft.get());
     engine_->add(std::move(aircraft));
@@ -36,10 +44,7 @@ void Flight::settle(const std::function<bool(std::size_t done, std::size_t wante
   });
 }
 
-void Flight::advance(double dt, const AircraftControls& controls) {
-  for (std::size_t index = 0; index < aircraft_.size(); ++index) {
-    aircraft_[index]->setControls(index == active() ? controls : AircraftControls{});
-  }
+void Flight::advance(double dt) {
   engine_->update(std::clamp(dt, 0.0, kLongestStep), kBudget);
   engineTimes_.add(std::chrono::duration<double, std::micro>(engine_->figures().lastUpdate).count());
 }

@@ -12,28 +12,32 @@
 
 namespace teren {
 
-/// Flies a leader and a wingman; one of them, the active one, is steered.
+/// Flies an aircraft, and a second one that comes from behind, kLeft to the left and kBehind it, faster,
+/// follows a script straight on and so passes on the left. One of them, the active one, is steered.
 class Flight {
  public:
   /// How long each update may work.
   static constexpr std::chrono::milliseconds kBudget{4};
-  static constexpr double kLongestStep = 0.1;  // [s]
+  static constexpr double kLongestStep = 0.1;            // [s]
+  static constexpr double kLeft = 60.0, kBehind = 60.0;  // [m]
+  static constexpr double kLower = 45.0;                 // [m] so that it stays in the picture
+  static constexpr double kFaster = 40.0;                // [m/s]
 
-  /// `start` is the leader's.
+  /// `start` is the first aircraft's.
   Flight(std::unique_ptr<Engine> engine, const AircraftStart& start);
 
   /// Engine::settle, with the aircraft put above the ground as it becomes known.
   void settle(const std::function<bool(std::size_t done, std::size_t wanted)>& progress);
 
   /// Moves all by dt [s], brought between 0 and kLongestStep, and lets the engine work within its budget.
-  void advance(double dt, const AircraftControls& controls);
+  void advance(double dt);
   void nextObject();
 
   Engine& engine() noexcept { return *engine_; }
   const Engine& engine() const noexcept { return *engine_; }
   std::size_t active() const noexcept { return engine_->active(); }
   const std::vector<Aircraft*>& aircraft() const noexcept { return aircraft_; }  // owned by the engine
-  Aircraft& activeAircraft() noexcept { return *aircraft_[active()]; }
+  Object& activeObject() noexcept { return engine_->object(active()); }
 
   /// [us] wall time of every update so far.
   const FrameStatistics& engineTimes() const noexcept { return engineTimes_; }

@@ -46,7 +46,7 @@ std::string groupedNumber(long double value, int decimals) {
   return digits;
 }
 
-std::vector<FigureLine> figureLines(const FlightFigures& figures) {
+std::vector<DisplayLine> flightLines(const FlightFigures& figures) {
   const Position& at = figures.position;
   const double pitch = figures.pitch;
   return {
@@ -59,6 +59,11 @@ std::vector<FigureLine> figureLines(const FlightFigures& figures) {
        figures.heightAboveGround ? groupedNumber(*figures.heightAboveGround, 1) + " m" : "unknown"},
       {"speed", text("%.1f m/s  (%.0f km/h)", figures.speed, 3.6 * figures.speed)},
       {"heading", compass(figures.heading)},
+  };
+}
+
+std::vector<DisplayLine> costLines(const CostFigures& figures) {
+  return {
       {"frame", text("%.1f ms", figures.frameMilliseconds)},
       {"engine", text("%.2f ms", figures.engineMilliseconds)},
       {"nodes", groupedNumber(static_cast<long double>(figures.nodes), 0) +

@@ -13,9 +13,12 @@ namespace teren {
 
 /// What remains once the world is known (see options/WorldOptions.h).
 struct FlyOptions {
-  ViewSettings view = kFlyingView;
+  EngineOptions engine{.view = kFlyingView, .workers = defaultWorkers()};
   double speed = 60.0;  ///< [m/s]
   WindowOptions window;
+
+  /// One less than the processor runs at a time, 0 ... 4: the picture needs the other one.
+  static int defaultWorkers() noexcept;
 };
 
 /// Declares the options on an application, which must live as long as this.
@@ -32,6 +35,8 @@ class FlyCommandLine {
   const CLI::Option* viewDistance_;
   const CLI::Option* viewLevel_;
   const CLI::Option* radius_;
+  const CLI::Option* workers_;
+  const CLI::Option* cap_;
   const CLI::Option* speed_;
   WindowCommandLine window_;
 };

@@ -1,7 +1,6 @@
 #include "apps/fly/FlyScene.h"
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 
 #include <Inventor/nodes/SoDirectionalLight.h>
@@ -18,7 +17,6 @@ namespace {
 constexpr float kNearest = 1.0F;         // [m] the near clipping plane
 constexpr float kFarthestFactor = 1.6F;  // far clipping plane in view distances: to the corners of the square
 constexpr float kFarthestAtLeast = 500.0F;  // [m] so that the sky fits in
-const std::array kPaints{SbColor(0.80F, 0.12F, 0.08F), SbColor(0.05F, 0.28F, 0.60F)};
 
 SoSeparator* uncached() {
   auto* separator = new SoSeparator;
@@ -29,7 +27,7 @@ SoSeparator* uncached() {
 
 }  // namespace
 
-FlyScene::FlyScene(const Daylight& light, std::size_t aircraft, double viewDistance)
+FlyScene::FlyScene(const Daylight& light, Engine& engine, double viewDistance)
     : root_(uncached()), camera_(new SoPerspectiveCamera), terrain_(new SoTerrain), sky_(light) {
   root_->ref();
   const auto distance = static_cast<float>(viewDistance);
@@ -51,8 +49,8 @@ FlyScene::FlyScene(const Daylight& light, std::size_t aircraft, double viewDista
   SoSeparator* land = uncached();
   land->addChild(terrain_);
   root_->addChild(land);
-  for (std::size_t index = 0; index < aircraft; ++index) {
-    models_.push_back(std::make_unique<AircraftModel>(kPaints[index % kPaints.size()]));
+  for (std::size_t index = 0; index < engine.objectCount(); ++index) {
+    models_.push_back(std::make_unique<ObjectModel>(engine.object(index).model()));
     root_->addChild(models_.back()->node());
   }
 }
@@ -72,24 +70,25 @@ void FlyScene::moveZero(double pitch) {
   terrain_->origin = SbVec3d(zero.x(pitch), zero.y(pitch), 0.0);
 }
 
-void FlyScene::show(const Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt) {
+void FlyScene::show(Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt) {
   const double pitch = flight.engine().world().pitch();
-  const Pose& eye = view.attitude;
+  const Pose& eye = view.pose;
   if (zero_.follow(eye.position, pitch)) moveZero(pitch);
   terrain_->setScene(flight.engine().scene());
 
-  // The camera of Inventor looks down its -z axis with y up; the attitude's rest looks north with z up.
+  // The camera of Inventor looks down its -z axis with y up; an object's rest looks north with z up.
   const SbRotation upright(SbVec3f(1.0F, 0.0F, 0.0F), std::numbers::pi_v<float> / 2.0F);
   const SbVec3f place = this->place(eye.position, eye.height, pitch);
   camera_->position = place;
-  camera_->orientation = upright * rotationOf(eye);
+  camera_->orientation = upright * rotationOf({eye.heading, eye.pitch, eye.roll});
   camera_->heightAngle = static_cast<float>(view.fieldOfView);
   sky_.moveTo(place);
 
   for (std::size_t index = 0; index < models_.size(); ++index) {
-    const Pose aircraft = flight.aircraft()[index]->pose();
+    const Object& object = flight.engine().object(index);
+    const Motion motion = object.motion();
     models_[index]->setVisible(person == CameraRig::Person::third || index != flight.active());
-    models_[index]->show(this->place(aircraft.position, aircraft.height, pitch), aircraft, dt);
+    models_[index]->show(this->place(motion.position, motion.height, pitch), object.attitude(), dt);
   }
 }
 

@@ -1,14 +1,14 @@
-// The scene graph of the demo: camera, sky, sun, land and aircraft, kept in step with a flight.
+// The scene graph of the demo: camera, sky, sun, land and objects, kept in step with a flight.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <vector>
 
-#include "apps/fly/AircraftModel.h"
 #include "apps/fly/CameraRig.h"
 #include "apps/fly/Daylight.h"
 #include "apps/fly/Flight.h"
+#include "apps/fly/ObjectModel.h"
 #include "apps/fly/SceneZero.h"
 #include "apps/fly/SkyDome.h"
 
@@ -21,16 +21,16 @@ namespace teren {
 /// Make it after SoQt::init and SoTerrain::initClass; it must go before Coin does.
 class FlyScene {
  public:
-  /// `viewDistance` [m] is where the haze hides the land.
-  FlyScene(const Daylight& light, std::size_t aircraft, double viewDistance);
+  /// Shows the engine's objects of this moment. `viewDistance` [m] is where the haze hides the land.
+  FlyScene(const Daylight& light, Engine& engine, double viewDistance);
   ~FlyScene();
   FlyScene(const FlyScene&) = delete;
   FlyScene& operator=(const FlyScene&) = delete;
 
   SoSeparator* node() const noexcept { return root_; }
 
-  /// Shows the flight as it is now, seen from `view`; in first person the aircraft one sits in is left out.
-  void show(const Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt);
+  /// Shows the flight as it is now, seen from `view`; in first person the object one sits in is left out.
+  void show(Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt);
 
   std::size_t bufferBytes() const;  ///< held on the graphics card for the land
 
@@ -42,7 +42,7 @@ class FlyScene {
   SoPerspectiveCamera* camera_;
   SoTerrain* terrain_;
   SkyDome sky_;
-  std::vector<std::unique_ptr<AircraftModel>> models_;
+  std::vector<std::unique_ptr<ObjectModel>> models_;
   SceneZero zero_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <Inventor/nodes/SoSeparator.h>
 #include <QApplication>
@@ -14,6 +15,7 @@
 #include <QVBoxLayout>
 #include <QWheelEvent>
 
+#include "apps/fly/FlightFigures.h"
 #include "apps/window/SavedFiles.h"
 #include "apps/window/WindowProgram.h"
 
@@ -48,7 +50,7 @@ QString pictureFile() {
 FlyWindow::FlyWindow(Flight& flight, const Daylight& light, QSize size)
     : flight_(flight),
       daylight_(light),
-      scene_(light, flight.aircraft().size(), flight.engine().options().view.reach(flight.engine().world())),
+      scene_(light, flight.engine(), flight.engine().options().view.reach(flight.engine().world())),
       area_(new RenderArea(this)) {
   setWindowTitle(QStringLiteral("Teren"));
   auto* layout = new QVBoxLayout(this);
@@ -85,6 +87,7 @@ bool FlyWindow::settle() {
     return !leaving_ && !endAsked();
   });
   display_.setBanner({});
+  showHelp();
   return !leaving_ && !endAsked();
 }
 
@@ -104,8 +107,8 @@ void FlyWindow::tick() {
   const double dt = frameStep(now - lastTick_);
   lastTick_ = now;
   const bool last = isLastFrame(now);
-  flight_.advance(paused_ ? 0.0 : dt, keys_.controls());
-  rig_.update(dt, keys_.cameraMoves(), flight_.activeAircraft().pose());
+  flight_.advance(paused_ ? 0.0 : dt);
+  rig_.update(dt, keys_.cameraMoves(), poseOf(flight_.activeObject()));
   updateScene(paused_ ? 0.0 : dt);
   if (last || now - lastFigures_ > kBetweenFigures) {
     showFigures();
@@ -129,32 +132,35 @@ void FlyWindow::tick() {
 }
 
 void FlyWindow::updateScene(double dt) {
-  const Viewpoint view = rig_.viewpoint(flight_.activeAircraft().pose(), flight_.engine().ground(),
+  const Viewpoint view = rig_.viewpoint(poseOf(flight_.activeObject()), flight_.engine().ground(),
                                         static_cast<double>(daylight_.waterLevel));
   scene_.show(flight_, view, rig_.person(), dt);
+  flight_.engine().setRendererBytes(scene_.bufferBytes());
 }
 
 std::size_t FlyWindow::bytes() const {
-  return flight_.engine().figures().bytes + scene_.bufferBytes();
+  return flight_.engine().figures().bytes;
 }
 
 void FlyWindow::showFigures() {
-  const Aircraft& aircraft = flight_.activeAircraft();
   const EngineFigures engine = flight_.engine().figures();
-  FlightFigures figures;
-  figures.position = aircraft.motion().position;
-  figures.pitch = flight_.engine().world().pitch();
-  figures.height = aircraft.motion().height;
-  figures.heightAboveGround = aircraft.heightAboveGround();
-  figures.speed = aircraft.speed();
-  figures.heading = aircraft.heading();
+  CostFigures figures;
   figures.frameMilliseconds = frameTimes_.latest(kFramesShown).p50;
   figures.engineMilliseconds = 1e-3 * flight_.engineTimes().latest(kFramesShown).p50;
   figures.nodes = engine.nodes;
   figures.triangles = engine.triangles;
   figures.bytes = bytes();
   figures.pending = engine.pending;
-  display_.setFigures(figures);
+  std::vector<DisplayLine> lines = flight_.activeObject().headUpDisplay();
+  for (DisplayLine& line : costLines(figures)) lines.push_back(std::move(line));
+  display_.setLines(std::move(lines));
+}
+
+// The active object's keys, then the program's.
+void FlyWindow::showHelp() {
+  std::vector<KeyHelp> help = flight_.activeObject().keys();
+  help.insert(help.end(), KeyMap::help().begin(), KeyMap::help().end());
+  display_.setHelp(help);
 }
 
 bool FlyWindow::eventFilter(QObject* watched, QEvent* event) {
@@ -171,6 +177,7 @@ bool FlyWindow::eventFilter(QObject* watched, QEvent* event) {
       return true;
     case QEvent::FocusOut:  // their release would go elsewhere
       keys_.releaseAll();
+      flight_.engine().letGo();
       dragFrom_.reset();
       break;
     default:
@@ -181,10 +188,14 @@ bool FlyWindow::eventFilter(QObject* watched, QEvent* event) {
 
 bool FlyWindow::keyEvent(const QKeyEvent& event) {
   const bool keypad = event.modifiers().testFlag(Qt::KeypadModifier);
+  const bool pressed = event.type() == QEvent::KeyPress;
   const std::optional<Action> action = KeyMap::action(event.key(), keypad);
-  if (!action) return false;
+  if (!action) {
+    const std::string name = KeyMap::name(event.key(), keypad);
+    return !name.empty() && (event.isAutoRepeat() || flight_.engine().handle({name, pressed ? 1.0 : 0.0}));
+  }
   if (event.isAutoRepeat()) return true;
-  if (event.type() == QEvent::KeyRelease) {
+  if (!pressed) {
     keys_.release(event.key(), keypad);
   } else if (isHeldAction(*action)) {
     keys_.press(event.key(), keypad);
@@ -218,7 +229,8 @@ void FlyWindow::act(Action action) {
       break;
     case Action::nextObject:
       flight_.nextObject();
-      display_.say("aircraft " + std::to_string(flight_.active() + 1), kSentenceTime);
+      display_.say("you fly " + flight_.activeObject().name(), kSentenceTime);
+      showHelp();
       break;
     case Action::pause:
       togglePause();

@@ -42,7 +42,7 @@ class FlyWindow : public QWidget {
   const QImage& lastPicture() const noexcept { return lastPicture_; }
   /// [ms] between the moments at which successive frames were presented.
   const FrameStatistics& frameTimes() const noexcept { return frameTimes_; }
-  std::size_t bytes() const;  ///< the engine's and the graphics buffers'
+  std::size_t bytes() const;  ///< the engine's, the graphics buffers included
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -52,6 +52,7 @@ class FlyWindow : public QWidget {
   void tick();
   void updateScene(double dt);
   void showFigures();
+  void showHelp();
   bool isLastFrame(Clock::time_point now) const;
   bool keyEvent(const QKeyEvent& event);
   bool mouseEvent(const QEvent& event);

@@ -1,7 +1,8 @@
 #include "apps/fly/HeadUpDisplay.h"
 
 #include <algorithm>
-#include <span>
+#include <string_view>
+#include <utility>
 
 #include <QColor>
 #include <QFont>
@@ -10,8 +11,6 @@
 #include <QOpenGLFunctions>
 #include <QPainter>
 #include <QString>
-
-#include "apps/fly/KeyMap.h"
 
 namespace teren {
 namespace {
@@ -27,8 +26,11 @@ const QColor kEdge(255, 255, 255, 40);
 const QColor kText(245, 248, 252);
 const QColor kLabel(158, 192, 226);
 
+const QColor kWarning(255, 120, 96);
+
 struct Line {
   QString left, right;
+  bool warning = false;
 };
 
 QFont textFont(int pixels, bool bold = false) {
@@ -82,9 +84,9 @@ QImage tableImage(const QString& title, const std::vector<Line>& lines, const QC
   painter.setFont(font);
   int base = top + metrics.ascent();
   for (const Line& line : lines) {
-    painter.setPen(kLabel);
+    painter.setPen(line.warning ? kWarning : kLabel);
     painter.drawText(kPadding, base, line.left);
-    painter.setPen(kText);
+    painter.setPen(line.warning ? kWarning : kText);
     painter.drawText(kPadding + left + kGap, base, line.right);
     base += step;
   }
@@ -154,23 +156,22 @@ void HeadUpDisplay::show(Panel& panel, QImage image) {
   panel.changed = true;
 }
 
-void HeadUpDisplay::setFigures(const FlightFigures& figures) {
-  std::vector<FigureLine> wanted = figureLines(figures);
+void HeadUpDisplay::setLines(std::vector<DisplayLine> wanted) {
   if (wanted == lines_) return;
   lines_ = std::move(wanted);
   std::vector<Line> lines;
-  for (const auto& [what, much] : lines_) lines.push_back({fromView(what), fromView(much)});
+  for (const auto& [what, says, warning] : lines_) lines.push_back({fromView(what), fromView(says), warning});
   // Never narrower than before, so that the panel does not tremble with its digits.
   show(figures_, tableImage(QString(), lines, kShade, figures_.image.width()));
   if (hint_.image.isNull()) show(hint_, sentenceImage(QStringLiteral("F1  help"), kTextPixels - 2));
 }
 
-void HeadUpDisplay::toggleHelp() {
-  help_.visible = !help_.visible;
-  if (!help_.visible || !help_.image.isNull()) return;
+void HeadUpDisplay::setHelp(const std::vector<KeyHelp>& help) {
+  const bool visible = help_.visible;
   std::vector<Line> lines;
-  for (const HelpLine& line : KeyMap::help()) lines.push_back({fromView(line.keys), fromView(line.does)});
+  for (const KeyHelp& line : help) lines.push_back({fromView(line.keys), fromView(line.does)});
   show(help_, tableImage(QStringLiteral("Keys"), lines, kDeepShade, 0));
+  help_.visible = visible;
 }
 
 void HeadUpDisplay::say(const std::string& sentence, Clock::duration duration) {
@@ -193,7 +194,8 @@ void HeadUpDisplay::place(QSize pixels) {
   const auto above = [&pixels](const Panel& panel, int share) {
     return (pixels.height() - panel.image.height()) * share / 100;
   };
-  figures_.corner = {kMargin, kMargin};
+  // On the right: what overtakes comes on the left.
+  figures_.corner = {pixels.width() - figures_.image.width() - kMargin, kMargin};
   help_.corner = {centred(help_), above(help_, 50)};
   banner_.corner = {centred(banner_), above(banner_, 35)};
   sentence_.corner = {centred(sentence_), pixels.height() - sentence_.image.height() - kMargin};

@@ -9,7 +9,7 @@
 #include <QPoint>
 #include <QSize>
 
-#include "apps/fly/FlightFigures.h"
+#include "teren/Object.h"
 
 namespace teren {
 
@@ -19,8 +19,10 @@ class HeadUpDisplay {
  public:
   using Clock = std::chrono::steady_clock;
 
-  void setFigures(const FlightFigures& figures);
-  void toggleHelp();
+  /// Shows these from top to bottom; warnings in a colour of their own.
+  void setLines(std::vector<DisplayLine> lines);
+  void toggleHelp() noexcept { help_.visible = !help_.visible && !help_.image.isNull(); }
+  void setHelp(const std::vector<KeyHelp>& lines);
   bool helpVisible() const noexcept { return help_.visible; }
   /// Shows a sentence at the bottom for `duration`, in place of the one before.
   void say(const std::string& sentence, Clock::duration duration);
@@ -44,7 +46,7 @@ class HeadUpDisplay {
   static void draw(Panel& panel);
 
   Panel figures_, help_, sentence_, banner_, hint_;
-  std::vector<FigureLine> lines_;
+  std::vector<DisplayLine> lines_;
   std::string bannerWord_;
   Clock::time_point sentenceEnd_{};
 };

@@ -30,16 +30,6 @@ constexpr std::array kRows{
     Row{Qt::Key_Clear, Where::anywhere, Action::cameraReset},
     Row{Qt::Key_9, Where::keypad, Action::cameraUp},
     Row{Qt::Key_3, Where::keypad, Action::cameraDown},
-    Row{Qt::Key_Up, Where::elsewhere, Action::faster},
-    Row{Qt::Key_W, Where::anywhere, Action::faster},
-    Row{Qt::Key_Down, Where::elsewhere, Action::slower},
-    Row{Qt::Key_S, Where::anywhere, Action::slower},
-    Row{Qt::Key_Left, Where::elsewhere, Action::turnLeft},
-    Row{Qt::Key_A, Where::anywhere, Action::turnLeft},
-    Row{Qt::Key_Right, Where::elsewhere, Action::turnRight},
-    Row{Qt::Key_D, Where::anywhere, Action::turnRight},
-    Row{Qt::Key_R, Where::anywhere, Action::climb},
-    Row{Qt::Key_F, Where::anywhere, Action::descend},
     Row{Qt::Key_I, Where::anywhere, Action::cameraForward},
     Row{Qt::Key_K, Where::anywhere, Action::cameraBack},
     Row{Qt::Key_J, Where::anywhere, Action::cameraLeft},
@@ -56,10 +46,7 @@ constexpr std::array kRows{
     Row{Qt::Key_Escape, Where::anywhere, Action::quit},
 };
 
-constexpr std::array<HelpLine, 14> kHelp{{
-    {"Up, Down  or  W, S", "faster, slower"},
-    {"Left, Right  or  A, D", "turn"},
-    {"R, F", "climb, descend"},
+constexpr std::array<KeyHelp, 11> kHelp{{
     {"mouse drag", "look around"},
     {"wheel", "zoom"},
     {"Num 8 2 4 6  or  I K J L", "camera forward, back, left, right"},
@@ -72,6 +59,22 @@ constexpr std::array<HelpLine, 14> kHelp{{
     {"F11, F12", "full screen, screenshot"},
     {"Escape", "quit"},
 }};
+
+constexpr std::array kNames{std::pair{Qt::Key_Up, "Up"},
+                            std::pair{Qt::Key_Down, "Down"},
+                            std::pair{Qt::Key_Left, "Left"},
+                            std::pair{Qt::Key_Right, "Right"},
+                            std::pair{Qt::Key_PageUp, "PageUp"},
+                            std::pair{Qt::Key_PageDown, "PageDown"},
+                            std::pair{Qt::Key_Home, "Home"},
+                            std::pair{Qt::Key_End, "End"},
+                            std::pair{Qt::Key_Space, "Space"},
+                            std::pair{Qt::Key_Return, "Return"},
+                            std::pair{Qt::Key_Shift, "Shift"},
+                            std::pair{Qt::Key_Control, "Control"},
+                            std::pair{Qt::Key_Insert, "Insert"},
+                            std::pair{Qt::Key_Delete, "Delete"},
+                            std::pair{Qt::Key_Backspace, "Backspace"}};
 
 }  // namespace
 
@@ -88,7 +91,19 @@ std::optional<Action> KeyMap::action(int key, bool keypad) noexcept {
   return row->action;
 }
 
-std::span<const HelpLine> KeyMap::help() noexcept {
+std::string KeyMap::name(int key, bool keypad) {
+  std::string name;
+  if (key > Qt::Key_Space && key <= Qt::Key_AsciiTilde) {
+    name = static_cast<char>(key);
+  } else {
+    const auto found =
+        std::find_if(kNames.begin(), kNames.end(), [key](const auto& each) { return each.first == key; });
+    if (found != kNames.end()) name = found->second;
+  }
+  return keypad && !name.empty() ? "Num " + name : name;
+}
+
+std::span<const KeyHelp> KeyMap::help() noexcept {
   return kHelp;
 }
 
@@ -109,11 +124,6 @@ bool HeldKeys::held(Action action) const {
 
 double HeldKeys::between(Action negative, Action positive) const {
   return (held(positive) ? 1.0 : 0.0) - (held(negative) ? 1.0 : 0.0);
-}
-
-AircraftControls HeldKeys::controls() const {
-  return {between(Action::turnLeft, Action::turnRight), between(Action::slower, Action::faster),
-          between(Action::descend, Action::climb)};
 }
 
 CameraMoves HeldKeys::cameraMoves() const {

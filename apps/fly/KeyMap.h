@@ -1,25 +1,21 @@
-// Which key does what: one table, read by the window for its events and by the help overlay for its text.
+// Which key does what in the program, whatever is flown: one table, read by the window for its events and by
+// the help overlay for its text. All other keys go to the active object, by name.
 #pragma once
 
 #include <optional>
 #include <set>
 #include <span>
-#include <string_view>
+#include <string>
 #include <utility>
 
-#include "apps/fly/Aircraft.h"
+#include "teren/Input.h"
+
 #include "apps/fly/CameraRig.h"
 
 namespace teren {
 
 enum class Action {
   // as long as the key is held
-  faster,
-  slower,
-  turnLeft,
-  turnRight,
-  climb,
-  descend,
   cameraForward,
   cameraBack,
   cameraLeft,
@@ -39,12 +35,6 @@ enum class Action {
 
 bool isHeldAction(Action action) noexcept;
 
-/// A row of the help overlay.
-struct HelpLine {
-  std::string_view keys;
-  std::string_view does;
-};
-
 /// The key table of the demo.
 class KeyMap {
  public:
@@ -52,19 +42,21 @@ class KeyMap {
   /// with and without NumLock. Empty for a key without a meaning.
   static std::optional<Action> action(int key, bool keypad) noexcept;
 
+  /// What an object calls a Qt key (InputEvent::name); empty for keys that have no name here.
+  static std::string name(int key, bool keypad);
+
   /// All that the keys and the mouse do, in the order in which to show it.
-  static std::span<const HelpLine> help() noexcept;
+  static std::span<const KeyHelp> help() noexcept;
 };
 
-/// The actions whose keys are down, and what that means for the aircraft and the camera. A key counts as
-/// itself, so holding W and the up arrow and letting one go still means faster.
+/// The actions whose keys are down, and what that means for the camera. A key counts as itself, so holding I
+/// and Num 8 and letting one go still means forward.
 class HeldKeys {
  public:
   void press(int key, bool keypad);
   void release(int key, bool keypad);
   void releaseAll() noexcept { keys_.clear(); }
 
-  AircraftControls controls() const;
   CameraMoves cameraMoves() const;
 
  private:

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <unistd.h>
@@ -26,9 +25,8 @@
 namespace teren {
 namespace {
 
-// Where the flight begins: in the default world over a lake's shore, towards a range with snow.
-constexpr double kStartEast = 3040.0, kStartNorth = 11700.0;        // [m]
-constexpr double kStartHeading = 335.0 * std::numbers::pi / 180.0;  // [rad]
+// Where the flight begins, heading north; the second aircraft then begins at (0, -60).
+constexpr double kStartEast = 60.0, kStartNorth = 0.0;  // [m]
 
 /// On a terminal: how much of the land is there.
 bool settle(FlyWindow& window) {
@@ -53,7 +51,6 @@ Result<void> saveResults(const FlyOptions& options, const FlyWindow& window, con
 Result<void> fly(const FlyOptions& options, std::unique_ptr<Engine> engine) {
   const Daylight daylight;
   AircraftStart start;
-  start.heading = kStartHeading;
   start.speed = options.speed;
   start.waterLevel = static_cast<double>(daylight.waterLevel);
   const Result<Position> position = Position::fromMetres(kStartEast, kStartNorth, engine->world().pitch());
@@ -68,7 +65,7 @@ Result<void> fly(const FlyOptions& options, std::unique_ptr<Engine> engine) {
   }
   window.fly(duration);
   QApplication::exec();
-  for (const std::string& message : flight.engine().world().takeMessages()) {
+  for (const std::string& message : flight.engine().takeMessages()) {
     std::fprintf(stderr, "teren-fly: %s\n", message.c_str());
   }
   return saveResults(options, window, flight);
@@ -83,7 +80,7 @@ int run(int argc, char** argv) {
   if (!world) return fail(application, kWrongInput, world.error().message);
   const Result<FlyOptions> options = commandLine.resolve(**world);
   if (!options) return fail(application, kWrongInput, options.error().message);
-  Result<std::unique_ptr<Engine>> engine = Engine::create(*world, {.view = options->view});
+  Result<std::unique_ptr<Engine>> engine = Engine::create(*world, options->engine);
   if (!engine) return fail(application, kWrongInput, engine.error().message);
   const Result<void> flown =
       runWithWindows("teren-fly", argv, [&] { return fly(*options, std::move(engine).value()); });

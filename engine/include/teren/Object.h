@@ -69,6 +69,8 @@ struct DisplayLine {
   std::string what;      ///< "speed"
   std::string says;      ///< "60.0 m/s"
   bool warning = false;  ///< to be seen at once
+
+  friend bool operator==(const DisplayLine&, const DisplayLine&) = default;
 };
 
 /// All calls on the engine's thread. Whoever implements it says what it is by overriding as much as it needs:

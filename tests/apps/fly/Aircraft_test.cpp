@@ -147,15 +147,15 @@ TEST(Aircraft, TurnsToTheRightInClockwiseHeadingsWithTheRightWingDown) {
   aircraft.update(2.0, ground);
   EXPECT_GT(aircraft.heading(), 0.5);
   EXPECT_LT(aircraft.heading(), 1.0);
-  EXPECT_GT(aircraft.pose().roll, 0.5);
-  EXPECT_LE(aircraft.pose().roll, Aircraft::kMaxRoll);
+  EXPECT_GT(aircraft.attitude().roll, 0.5);
+  EXPECT_LE(aircraft.attitude().roll, Aircraft::kMaxRoll);
   const Motion motion = aircraft.motion();
   EXPECT_GT(motion.east, 0.0);
   EXPECT_NEAR(std::atan2(motion.east, motion.north), aircraft.heading(), 1e-12);
 
   aircraft.setControls({});
   aircraft.update(10.0, ground);
-  EXPECT_NEAR(aircraft.pose().roll, 0.0, 1e-6);
+  EXPECT_NEAR(aircraft.attitude().roll, 0.0, 1e-6);
 }
 
 TEST(Aircraft, KeepsItsHeadingBetweenZeroAndAFullTurn) {
@@ -241,6 +241,127 @@ TEST(Aircraft, StandsStillAtTheEndOfTheWorld) {
   for (int second = 0; second < 10; ++second) aircraft.update(1.0, ground);
   EXPECT_LE(aircraft.motion().position.j, kMaxPatch);
   EXPECT_DOUBLE_EQ(*aircraft.heightAboveGround(), AircraftStart{}.clearance);
+}
+
+/// What a collision at a place says to an aircraft as it flies.
+Contact contactOf(const Aircraft& aircraft, std::array<double, 3> normal) {
+  Contact contact;
+  contact.normal = normal;
+  contact.motion = aircraft.motion();
+  return contact;
+}
+
+std::string shown(const Aircraft& aircraft, const std::string& what) {
+  for (const DisplayLine& line : aircraft.headUpDisplay()) {
+    if (line.what == what) return line.says;
+  }
+  return "";
+}
+
+TEST(Aircraft, FliesByItsKeysAndLetsGoOfThem) {
+  const FakeGround ground = flatGround(0.0);
+  Aircraft aircraft({});
+  EXPECT_TRUE(aircraft.handle({"Right", 1.0}));
+  EXPECT_TRUE(aircraft.handle({"D", 1.0}));
+  EXPECT_TRUE(aircraft.handle({"D", 0.0}));
+  aircraft.update(1.0, ground);
+  const double turned = aircraft.heading();
+  EXPECT_GT(turned, 0.1) << "one of the two keys is still down";
+  aircraft.letGo();
+  aircraft.update(10.0, ground);
+  EXPECT_LT(aircraft.heading(), turned + 0.5);
+  EXPECT_TRUE(aircraft.handle({"W", 1.0}));
+  EXPECT_TRUE(aircraft.handle({"R", 1.0}));
+  aircraft.update(2.0, ground);
+  EXPECT_GT(aircraft.speed(), 100.0);
+  EXPECT_GT(aircraft.clearance(), 150.0);
+  EXPECT_TRUE(aircraft.handle({"S", 1.0}));
+  const double speed = aircraft.speed();
+  aircraft.update(1.0, ground);
+  EXPECT_EQ(aircraft.speed(), speed) << "faster and slower cancel out";
+  EXPECT_FALSE(aircraft.handle({"Q", 1.0}));
+  EXPECT_FALSE(aircraft.handle({"Num Up", 1.0}));
+}
+
+TEST(Aircraft, ListsEveryKeyItListensTo) {
+  Aircraft aircraft({});
+  std::string keys;
+  for (const KeyHelp& line : aircraft.keys()) keys.append(line.keys).append(", ");
+  for (const char* key : {"Up", "Down", "Left", "Right", "W", "S", "A", "D", "R", "F"}) {
+    EXPECT_TRUE(aircraft.handle({key, 1.0})) << key;
+    EXPECT_NE(keys.find(key), std::string::npos) << key;
+  }
+}
+
+TEST(Aircraft, FollowsItsScriptUntilThePilotTouchesTheControls) {
+  const FakeGround ground = flatGround(100.0);
+  const auto script = *circleScript({.speed = 100.0}, 500.0);
+  Aircraft aircraft({.clearance = 80.0, .script = script});
+  for (int frame = 0; frame < 600; ++frame) aircraft.update(1.0 / 60.0, ground);
+  const Offset off = offset((*script->at(10.0)).position, aircraft.motion().position, ground.pitch());
+  EXPECT_LT(std::hypot(off.east, off.north), 1e-6);
+  EXPECT_NEAR(aircraft.heading(), 2.0, 1e-6);
+  EXPECT_NEAR(*aircraft.heightAboveGround(), 80.0, 1e-9);
+  EXPECT_GT(aircraft.attitude().roll, 0.5) << "leans into the turn";
+  EXPECT_EQ(shown(aircraft, "pilot"), "follows a script");
+  aircraft.handle({"W", 1.0});
+  aircraft.handle({"W", 0.0});
+  EXPECT_FALSE(aircraft.followsScript());
+  aircraft.update(5.0, ground);
+  EXPECT_NEAR(aircraft.attitude().roll, 0.0, 1e-3);
+}
+
+TEST(Aircraft, FeelsTheGroundItHitsAndSaysSo) {
+  const FakeGround ground = flatGround(0.0);
+  Aircraft aircraft({.speed = 100.0});
+  aircraft.update(1.0, ground);
+  EXPECT_EQ(shown(aircraft, "HIT"), "");
+  aircraft.collided(contactOf(aircraft, {0.0, -0.6, 0.8}));  // a slope of 37 degrees ahead
+  EXPECT_EQ(aircraft.touches(), 1);
+  EXPECT_GT(aircraft.motion().up, 60.0);
+  EXPECT_LT(aircraft.speed(), 60.0);
+  EXPECT_EQ(aircraft.heading(), 0.0) << "thrown up, not back";
+  EXPECT_EQ(shown(aircraft, "HIT"), "the ground at 60 m/s");
+  EXPECT_TRUE(aircraft.headUpDisplay().back().warning);
+  aircraft.update(Aircraft::kTouchShown + 0.1, ground);
+  EXPECT_EQ(shown(aircraft, "HIT"), "");
+}
+
+TEST(Aircraft, BouncesOffAWall) {
+  Aircraft aircraft({.speed = 100.0});
+  aircraft.update(1.0, flatGround(0.0));
+  aircraft.collided(contactOf(aircraft, {0.0, -1.0, 0.0}));
+  EXPECT_NEAR(aircraft.heading(), kPi, 1e-9);
+  EXPECT_NEAR(aircraft.speed(), 0.7 * 40.0, 1e-9);
+}
+
+TEST(Aircraft, SharesTheBlowWithAnotherAircraft) {
+  Aircraft aircraft({.speed = 100.0}), other({.speed = 50.0, .name = "other"});
+  aircraft.update(1.0, flatGround(0.0));
+  Contact contact = contactOf(aircraft, {0.0, -1.0, 0.0});
+  contact.other = &other;
+  contact.otherVelocity = {0.0, 50.0, 0.0};
+  aircraft.collided(contact);
+  EXPECT_NEAR(aircraft.speed(), 0.7 * (100.0 - 0.7 * 50.0), 1e-9);
+  EXPECT_EQ(shown(aircraft, "HIT"), "other at 50 m/s");
+}
+
+TEST(Aircraft, HasAModelOfTrianglesAllOfWhosePointsExist) {
+  const Aircraft aircraft({});
+  std::size_t triangles = 0;
+  bool spins = false;
+  float widest = 0.0F;
+  for (const ModelPart& part : aircraft.model().parts) {
+    triangles += part.triangles.size();
+    spins = spins || part.spin != 0.0F;
+    for (const ModelPoint& point : part.points) widest = std::max(widest, std::abs(point[0]));
+    for (const auto& triangle : part.triangles) {
+      for (const std::uint32_t index : triangle) ASSERT_LT(index, part.points.size());
+    }
+  }
+  EXPECT_GT(triangles, 300U);
+  EXPECT_TRUE(spins) << "its propeller";
+  EXPECT_NEAR(widest, 5.5F, 1e-6F);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ Pose above(double height, double heading = 0.0) {
 }
 
 Offset fromObject(const Pose& object, const Viewpoint& view) {
-  return offset(object.position, view.attitude.position, 64.0);
+  return offset(object.position, view.pose.position, 64.0);
 }
 
 TEST(CameraRig, BeginsInThirdPersonBehindAndAboveTheObject) {
@@ -28,8 +28,8 @@ TEST(CameraRig, BeginsInThirdPersonBehindAndAboveTheObject) {
   EXPECT_EQ(rig.person(), CameraRig::Person::third);
   EXPECT_LT(fromObject(object, view).east, -15.0);
   EXPECT_NEAR(fromObject(object, view).north, 0.0, 1e-9);
-  EXPECT_GT(view.attitude.height, 102.0);
-  EXPECT_NEAR(view.attitude.heading, kPi / 2.0, 1e-12);
+  EXPECT_GT(view.pose.height, 102.0);
+  EXPECT_NEAR(view.pose.heading, kPi / 2.0, 1e-12);
 }
 
 TEST(CameraRig, SitsInTheObjectInFirstPersonAndRollsWithIt) {
@@ -40,7 +40,7 @@ TEST(CameraRig, SitsInTheObjectInFirstPersonAndRollsWithIt) {
   const Viewpoint view = rig.viewpoint(object, flatGround(0.0), kDry);
   EXPECT_EQ(rig.person(), CameraRig::Person::first);
   EXPECT_LT(std::hypot(fromObject(object, view).east, fromObject(object, view).north), 3.0);
-  EXPECT_GT(view.attitude.roll, 0.2);
+  EXPECT_GT(view.pose.roll, 0.2);
 }
 
 TEST(CameraRig, MovesRelativeToTheObjectsHeading) {
@@ -50,10 +50,10 @@ TEST(CameraRig, MovesRelativeToTheObjectsHeading) {
   const Viewpoint before = rig.viewpoint(object, flatGround(0.0), kDry);
   rig.update(1.0, {.forward = 1.0, .right = 1.0, .up = 1.0}, object);
   const Viewpoint after = rig.viewpoint(object, flatGround(0.0), kDry);
-  const Offset moved = offset(before.attitude.position, after.attitude.position, 64.0);
+  const Offset moved = offset(before.pose.position, after.pose.position, 64.0);
   EXPECT_GT(moved.east, 10.0);    // forward
   EXPECT_LT(moved.north, -10.0);  // right
-  EXPECT_GT(after.attitude.height, before.attitude.height + 10.0);
+  EXPECT_GT(after.pose.height, before.pose.height + 10.0);
 }
 
 TEST(CameraRig, StaysWithinItsGreatestOffset) {
@@ -73,9 +73,9 @@ TEST(CameraRig, GoesBackToItsDefaultWhenReset) {
   rig.zoom(5.0);
   rig.reset();
   const Viewpoint after = rig.viewpoint(object, flatGround(0.0), kDry);
-  EXPECT_EQ(after.attitude.position, before.attitude.position);
-  EXPECT_EQ(after.attitude.height, before.attitude.height);
-  EXPECT_EQ(after.attitude.heading, before.attitude.heading);
+  EXPECT_EQ(after.pose.position, before.pose.position);
+  EXPECT_EQ(after.pose.height, before.pose.height);
+  EXPECT_EQ(after.pose.heading, before.pose.heading);
   EXPECT_EQ(after.fieldOfView, before.fieldOfView);
 }
 
@@ -84,7 +84,7 @@ TEST(CameraRig, CirclesTheObjectWhenLookingAroundInThirdPerson) {
   const Pose object = above(500.0);
   rig.look(kPi / 2.0, 0.0);
   const Viewpoint view = rig.viewpoint(object, flatGround(0.0), kDry);
-  EXPECT_NEAR(view.attitude.heading, kPi / 2.0, 1e-12);
+  EXPECT_NEAR(view.pose.heading, kPi / 2.0, 1e-12);
   EXPECT_LT(fromObject(object, view).east, -15.0);
   EXPECT_NEAR(fromObject(object, view).north, 0.0, 1e-9);
 }
@@ -93,8 +93,7 @@ TEST(CameraRig, NeverLooksPastStraightUpOrDown) {
   CameraRig rig;
   for (const double up : {100.0, -200.0}) {
     rig.look(0.0, up);
-    EXPECT_LE(std::abs(rig.viewpoint(above(5e3), flatGround(0.0), kDry).attitude.pitch),
-              CameraRig::kMaxPitch);
+    EXPECT_LE(std::abs(rig.viewpoint(above(5e3), flatGround(0.0), kDry).pose.pitch), CameraRig::kMaxPitch);
   }
 }
 
@@ -113,11 +112,11 @@ TEST(CameraRig, ZoomsBetweenItsLimits) {
 TEST(CameraRig, KeepsTheEyeAboveGroundAndWater) {
   CameraRig rig;
   const Pose object = above(10.0);
-  EXPECT_DOUBLE_EQ(rig.viewpoint(object, flatGround(50.0), kDry).attitude.height,
+  EXPECT_DOUBLE_EQ(rig.viewpoint(object, flatGround(50.0), kDry).pose.height,
                    50.0 + CameraRig::kEyeClearance);
-  EXPECT_DOUBLE_EQ(rig.viewpoint(object, flatGround(-50.0), 40.0).attitude.height,
+  EXPECT_DOUBLE_EQ(rig.viewpoint(object, flatGround(-50.0), 40.0).pose.height,
                    40.0 + CameraRig::kEyeClearance);
-  EXPECT_LT(rig.viewpoint(object, unknownGround(), kDry).attitude.height, 20.0);
+  EXPECT_LT(rig.viewpoint(object, unknownGround(), kDry).pose.height, 20.0);
 }
 
 TEST(CameraRig, ComesRoundAfterATurnWithoutEverLosingTheObject) {
@@ -125,12 +124,11 @@ TEST(CameraRig, ComesRoundAfterATurnWithoutEverLosingTheObject) {
   rig.update(0.02, {}, above(100.0, 0.1));
   for (int frame = 1; frame <= 50; ++frame) rig.update(0.02, {}, above(100.0, 0.1 - 0.01 * frame));
   const double heading = 0.1 - 0.5;  // through north, to the left
-  const double behind =
-      rig.viewpoint(above(100.0, heading), flatGround(0.0), kDry).attitude.heading - heading;
+  const double behind = rig.viewpoint(above(100.0, heading), flatGround(0.0), kDry).pose.heading - heading;
   EXPECT_GT(behind, 0.05);
   EXPECT_LT(behind, 0.6);
   for (int frame = 0; frame < 200; ++frame) rig.update(0.02, {}, above(100.0, heading));
-  EXPECT_NEAR(rig.viewpoint(above(100.0, heading), flatGround(0.0), kDry).attitude.heading, heading, 1e-3);
+  EXPECT_NEAR(rig.viewpoint(above(100.0, heading), flatGround(0.0), kDry).pose.heading, heading, 1e-3);
 }
 
 }  // namespace

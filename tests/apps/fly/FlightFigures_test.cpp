@@ -9,11 +9,14 @@
 namespace teren {
 namespace {
 
-std::string figure(const FlightFigures& figures, const std::string& name) {
-  const std::vector<FigureLine> lines = figureLines(figures);
+std::string says(const std::vector<DisplayLine>& lines, const std::string& name) {
   const auto line = std::find_if(lines.begin(), lines.end(),
-                                 [&name](const FigureLine& each) { return each.first == name; });
-  return line == lines.end() ? "no such line" : line->second;
+                                 [&name](const DisplayLine& each) { return each.what == name; });
+  return line == lines.end() ? "no such line" : line->says;
+}
+
+std::string figure(const FlightFigures& figures, const std::string& name) {
+  return says(flightLines(figures), name);
 }
 
 TEST(FlightFigures, GroupDigitsByThousands) {
@@ -58,12 +61,12 @@ TEST(FlightFigures, SayWhenTheGroundIsUnknown) {
   EXPECT_EQ(figure(figures, "above ground"), "123.5 m");
 }
 
-TEST(FlightFigures, TellWhatIsStillToCome) {
-  FlightFigures figures;
+TEST(CostFigures, TellWhatIsStillToCome) {
+  CostFigures figures;
   figures.nodes = 1690;
-  EXPECT_EQ(figure(figures, "nodes"), "1 690");
+  EXPECT_EQ(says(costLines(figures), "nodes"), "1 690");
   figures.pending = 12;
-  EXPECT_EQ(figure(figures, "nodes"), "1 690  (+ 12 to come)");
+  EXPECT_EQ(says(costLines(figures), "nodes"), "1 690  (+ 12 to come)");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace teren {
 namespace {
 
 /// A flight over the default world with a small view.
-std::unique_ptr<Flight> flightAt(const Position& position, double speed) {
+std::unique_ptr<Flight> flightAt(const Position& position, double speed, double heading = 0.3) {
   Result<std::shared_ptr<const World>> world =
       World::create(WorldDescription::standard(), *PluginRegistry::standard());
   if (!world) return nullptr;
@@ -20,7 +21,7 @@ std::unique_ptr<Flight> flightAt(const Position& position, double speed) {
       Engine::create(std::move(world).value(), {.view = {.level = 2, .radius = 2}});
   if (!engine) return nullptr;
   return std::make_unique<Flight>(std::move(engine).value(),
-                                  AircraftStart{.position = position, .heading = 0.3, .speed = speed});
+                                  AircraftStart{.position = position, .heading = heading, .speed = speed});
 }
 
 const auto kToTheEnd = [](std::size_t, std::size_t) { return true; };
@@ -31,8 +32,9 @@ TEST(Flight, BeginsAboveTheGroundOnceItHasSettled) {
   flight->settle(kToTheEnd);
   for (const Aircraft* aircraft : flight->aircraft()) {
     ASSERT_TRUE(aircraft->heightAboveGround());
-    EXPECT_GE(*aircraft->heightAboveGround(), AircraftStart{}.clearance - 1e-6);
-    EXPECT_EQ(aircraft->motion().position.i / 2, 50);
+    EXPECT_GE(*aircraft->heightAboveGround(), AircraftStart{}.clearance - Flight::kLower - 1e-6);
+    const Offset away = offset({100, -40, 0.5, 0.5}, aircraft->motion().position, 64.0);
+    EXPECT_LT(std::hypot(away.east, away.north), 90.0);
   }
 }
 
@@ -40,12 +42,11 @@ TEST(Flight, NeverLetsAnAircraftBelowTheKnownGround) {
   const std::unique_ptr<Flight> flight = flightAt({18, -230, 0.0, 0.0}, 250.0);
   ASSERT_TRUE(flight);
   flight->settle(kToTheEnd);
-  AircraftControls low;
-  low.climb = -1.0;
+  flight->engine().handle({"F", 1.0});
   int looks = 0;
   for (int frame = 0; frame < 600; ++frame) {
-    low.turn = frame % 200 < 60 ? 1.0 : 0.0;
-    flight->advance(1.0 / 30.0, low);
+    flight->engine().handle({"Right", frame % 200 < 60 ? 1.0 : 0.0});
+    flight->advance(1.0 / 30.0);
     for (const Aircraft* aircraft : flight->aircraft()) {
       // Of ground that has come since it moved it knows at its next step.
       if (!aircraft->heightAboveGround()) continue;
@@ -56,24 +57,100 @@ TEST(Flight, NeverLetsAnAircraftBelowTheKnownGround) {
   EXPECT_GT(looks, 600);  // of 1200
 }
 
-TEST(Flight, SteersTheActiveAircraftOnly) {
+TEST(Flight, KeysReachTheActiveAircraftOnly) {
   const std::unique_ptr<Flight> flight = flightAt({}, 60.0);
   ASSERT_TRUE(flight);
-  flight->nextObject();
+  flight->engine().handle({"Left", 1.0});
+  flight->nextObject();  // and so lets go of it
   EXPECT_EQ(flight->active(), 1U);
-  for (int frame = 0; frame < 60; ++frame) flight->advance(1.0 / 60.0, {.turn = 1.0});
+  flight->engine().handle({"Right", 1.0});
+  for (int frame = 0; frame < 60; ++frame) flight->advance(1.0 / 60.0);
   EXPECT_EQ(flight->aircraft()[0]->heading(), 0.3);
   EXPECT_GT(flight->aircraft()[1]->heading(), 0.4);
+  EXPECT_FALSE(flight->aircraft()[1]->followsScript());
   flight->nextObject();
   EXPECT_EQ(flight->active(), 0U);
+}
+
+/// Metres of the second aircraft ahead and to the left of the first.
+std::pair<double, double> aheadAndLeft(const Flight& flight) {
+  const Aircraft &first = *flight.aircraft()[0], &second = *flight.aircraft()[1];
+  const Offset away = offset(first.motion().position, second.motion().position, 64.0);
+  const double sine = std::sin(first.heading()), cosine = std::cos(first.heading());
+  return {away.east * sine + away.north * cosine, away.north * sine - away.east * cosine};
+}
+
+TEST(Flight, TheSecondAircraftPassesOnTheLeft) {
+  for (const double heading : {0.0, 0.3, 4.0}) {
+    const std::unique_ptr<Flight> flight = flightAt({0, 0, 60.0 / 64.0, 0.0}, 60.0, heading);
+    ASSERT_TRUE(flight);
+    flight->settle(kToTheEnd);
+    const Position start = flight->aircraft()[1]->motion().position;
+    if (heading == 0.0) {
+      EXPECT_EQ(start, (*Position::fromMetres(0.0, -60.0, 64.0)));
+    }
+    double ahead = 0.0, left = 0.0, before = -1e9;
+    for (int frame = 0; frame < 60 * 5; ++frame) {
+      std::tie(ahead, left) = aheadAndLeft(*flight);
+      ASSERT_NEAR(left, 60.0, 1e-6);
+      ASSERT_GT(ahead, before) << "it never falls back";
+      if (frame == 0) {
+        EXPECT_NEAR(ahead, -60.0, 1e-6);
+      }
+      before = ahead;
+      flight->advance(1.0 / 60.0);
+    }
+    EXPECT_GT(ahead, 100.0);
+    EXPECT_TRUE(flight->aircraft()[1]->followsScript());
+  }
+}
+
+TEST(Flight, AnAircraftDrivenIntoAHillIsNeverBelowTheGround) {
+  for (const double speed : {100.0, 1e3, 1e4, 1e6}) {
+    const std::unique_ptr<Flight> flight = flightAt({3, 8, 0.5, 0.5}, speed < 500.0 ? 60.0 : 600.0);
+    ASSERT_TRUE(flight);
+    flight->settle(kToTheEnd);
+    Aircraft& aircraft = *flight->aircraft()[0];
+    for (int frame = 0; frame < 120; ++frame) {
+      Motion dive = aircraft.motion();
+      dive.up = -speed;
+      aircraft.place(dive);
+      flight->advance(frame % 2 == 0 ? 0.1 : 1.0 / 60.0);
+      const auto low = flight->engine().finestHeight(aircraft.motion().position);
+      ASSERT_TRUE(low);
+      ASSERT_GT(aircraft.motion().height, *low + 0.99 * Aircraft::kRadius) << speed << ", frame " << frame;
+    }
+    EXPECT_GT(aircraft.touches(), 5) << speed;
+  }
+}
+
+TEST(Flight, TwoAircraftThatMeetThrowEachOtherBackAndSaySo) {
+  const std::unique_ptr<Flight> flight = flightAt({}, 60.0, 0.0);
+  ASSERT_TRUE(flight);
+  flight->settle(kToTheEnd);
+  Aircraft &first = *flight->aircraft()[0], &second = *flight->aircraft()[1];
+  flight->advance(1.0 / 60.0);
+  Motion opposite = first.motion();
+  opposite.position = *opposite.position.movedBy(0.0, 20.0, 64.0);
+  opposite.north = -60.0;
+  second.place(opposite);
+  second.handle({"S", 1.0});  // its pilot takes over from the script
+  second.letGo();
+  for (int frame = 0; frame < 30; ++frame) flight->advance(1.0 / 60.0);
+  EXPECT_EQ(first.touches(), 1);
+  EXPECT_EQ(second.touches(), 1);
+  EXPECT_EQ(first.touched(), "the second aircraft at 120 m/s");
+  const Offset apart = offset(first.motion().position, second.motion().position, 64.0);
+  EXPECT_GT(apart.north, 2.0 * Aircraft::kRadius);
+  EXPECT_EQ(first.headUpDisplay().back().what, "HIT");
 }
 
 TEST(Flight, LimitsHowFarOneFrameCanMoveIt) {
   const std::unique_ptr<Flight> flight = flightAt({}, 100.0);
   ASSERT_TRUE(flight);
-  const Position before = flight->activeAircraft().motion().position;
-  flight->advance(3600.0, {});
-  const Offset flown = offset(before, flight->activeAircraft().motion().position, 64.0);
+  const Position before = flight->activeObject().motion().position;
+  flight->advance(3600.0);
+  const Offset flown = offset(before, flight->activeObject().motion().position, 64.0);
   EXPECT_NEAR(std::hypot(flown.east, flown.north), 100.0 * Flight::kLongestStep, 1e-6);
   EXPECT_EQ(flight->engineTimes().count(), 1U);
 }

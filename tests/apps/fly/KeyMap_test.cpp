@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 #include <Qt>
 #include <gtest/gtest.h>
@@ -9,17 +10,18 @@
 namespace teren {
 namespace {
 
-TEST(KeyMap, FliesWithArrowsAndTheSameWithWasd) {
-  EXPECT_EQ(KeyMap::action(Qt::Key_Up, false), Action::faster);
-  EXPECT_EQ(KeyMap::action(Qt::Key_W, false), Action::faster);
-  EXPECT_EQ(KeyMap::action(Qt::Key_Down, false), Action::slower);
-  EXPECT_EQ(KeyMap::action(Qt::Key_S, false), Action::slower);
-  EXPECT_EQ(KeyMap::action(Qt::Key_Left, false), Action::turnLeft);
-  EXPECT_EQ(KeyMap::action(Qt::Key_A, false), Action::turnLeft);
-  EXPECT_EQ(KeyMap::action(Qt::Key_Right, false), Action::turnRight);
-  EXPECT_EQ(KeyMap::action(Qt::Key_D, false), Action::turnRight);
-  EXPECT_EQ(KeyMap::action(Qt::Key_R, false), Action::climb);
-  EXPECT_EQ(KeyMap::action(Qt::Key_F, false), Action::descend);
+TEST(KeyMap, LeavesTheKeysOfObjectsToThemAndKnowsTheirNames) {
+  const std::pair<int, const char*> names[] = {
+      {Qt::Key_Up, "Up"}, {Qt::Key_Down, "Down"}, {Qt::Key_Left, "Left"}, {Qt::Key_Right, "Right"},
+      {Qt::Key_W, "W"},   {Qt::Key_S, "S"},       {Qt::Key_A, "A"},       {Qt::Key_D, "D"},
+      {Qt::Key_R, "R"},   {Qt::Key_F, "F"},       {Qt::Key_1, "1"},       {Qt::Key_Space, "Space"}};
+  for (const auto& [key, name] : names) {
+    EXPECT_FALSE(KeyMap::action(key, false)) << name;
+    EXPECT_EQ(KeyMap::name(key, false), name);
+  }
+  EXPECT_EQ(KeyMap::name(Qt::Key_7, true), "Num 7");
+  EXPECT_EQ(KeyMap::name(Qt::Key_F35, false), "");
+  EXPECT_EQ(KeyMap::name(Qt::Key_Eacute, false), "");
 }
 
 TEST(KeyMap, MovesTheCameraFromTheNumberPadWithAndWithoutNumLockAndFromTheLetters) {
@@ -56,53 +58,52 @@ TEST(KeyMap, HasAKeyForEveryOtherThing) {
 
 TEST(KeyMap, ExplainsInItsHelpEveryKeyThatDoesSomething) {
   std::string keys;
-  for (const HelpLine& line : KeyMap::help()) {
+  for (const KeyHelp& line : KeyMap::help()) {
     EXPECT_FALSE(line.does.empty());
     keys.append(line.keys).append(", ");
   }
-  for (const char* key :
-       {"Up", "Down",  "Left",  "Right",       "W,",      "S,",     "A,",       "D,",    "R,",
-        "F,", "mouse", "wheel", "Num 8 2 4 6", "I K J L", "PageUp", "PageDown", "Num 5", "Home",
-        "C,", "Tab",   "P,",    "F1,",         "F11",     "F12",    "Escape"}) {
+  for (const char* key : {"mouse", "wheel", "Num 8 2 4 6", "I K J L", "PageUp", "PageDown", "Num 5", "Home",
+                          "C,", "Tab", "P,", "F1,", "F11", "F12", "Escape"}) {
     EXPECT_NE(keys.find(key), std::string::npos) << key;
   }
 }
 
-TEST(HeldKeys, BecomeControlsWhileHeld) {
+TEST(HeldKeys, MoveTheCameraWhileHeld) {
   HeldKeys keys;
-  keys.press(Qt::Key_Up, false);
-  keys.press(Qt::Key_A, false);
-  keys.press(Qt::Key_F, false);
-  EXPECT_EQ(keys.controls().throttle, 1.0);
-  EXPECT_EQ(keys.controls().turn, -1.0);
-  EXPECT_EQ(keys.controls().climb, -1.0);
-  keys.release(Qt::Key_A, false);
-  EXPECT_EQ(keys.controls().turn, 0.0);
+  keys.press(Qt::Key_I, false);
+  keys.press(Qt::Key_J, false);
+  keys.press(Qt::Key_PageDown, false);
+  EXPECT_EQ(keys.cameraMoves().forward, 1.0);
+  EXPECT_EQ(keys.cameraMoves().right, -1.0);
+  EXPECT_EQ(keys.cameraMoves().up, -1.0);
+  keys.release(Qt::Key_J, false);
+  EXPECT_EQ(keys.cameraMoves().right, 0.0);
   keys.releaseAll();
-  EXPECT_EQ(keys.controls().throttle, 0.0);
+  EXPECT_EQ(keys.cameraMoves().forward, 0.0);
 }
 
 TEST(HeldKeys, CancelOutWhenTheyContradict) {
   HeldKeys keys;
-  keys.press(Qt::Key_Left, false);
-  keys.press(Qt::Key_Right, false);
-  EXPECT_EQ(keys.controls().turn, 0.0);
+  keys.press(Qt::Key_J, false);
+  keys.press(Qt::Key_L, false);
+  EXPECT_EQ(keys.cameraMoves().right, 0.0);
 }
 
 TEST(HeldKeys, KeepAnActionUntilTheLastOfItsKeysIsReleased) {
   HeldKeys keys;
-  keys.press(Qt::Key_W, false);
-  keys.press(Qt::Key_Up, false);
-  keys.release(Qt::Key_W, false);
-  EXPECT_EQ(keys.controls().throttle, 1.0);
-  keys.release(Qt::Key_Up, false);
-  EXPECT_EQ(keys.controls().throttle, 0.0);
+  keys.press(Qt::Key_I, false);
+  keys.press(Qt::Key_8, true);
+  keys.release(Qt::Key_I, false);
+  EXPECT_EQ(keys.cameraMoves().forward, 1.0);
+  keys.release(Qt::Key_8, true);
+  EXPECT_EQ(keys.cameraMoves().forward, 0.0);
 }
 
 TEST(HeldKeys, TellTheNumberPadFromTheArrows) {
   HeldKeys keys;
+  keys.press(Qt::Key_Up, false);
+  EXPECT_EQ(keys.cameraMoves().forward, 0.0);
   keys.press(Qt::Key_Up, true);
-  EXPECT_EQ(keys.controls().throttle, 0.0);
   EXPECT_EQ(keys.cameraMoves().forward, 1.0);
   keys.press(Qt::Key_PageDown, false);
   EXPECT_EQ(keys.cameraMoves().up, -1.0);
@@ -112,7 +113,7 @@ TEST(HeldKeys, LeaveOutKeysThatActOncePerPress) {
   HeldKeys keys;
   keys.press(Qt::Key_P, false);
   keys.press(Qt::Key_Q, false);
-  EXPECT_EQ(keys.controls().throttle, 0.0);
+  EXPECT_EQ(keys.cameraMoves().forward, 0.0);
   EXPECT_FALSE(isHeldAction(Action::pause));
   EXPECT_TRUE(isHeldAction(Action::cameraDown));
 }
