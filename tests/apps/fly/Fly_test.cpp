@@ -1,13 +1,9 @@
 // Runs teren-fly as a person would, and looks at what it leaves.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <set>
 #include <string>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
@@ -17,21 +13,14 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/PrivateDisplay.h"
+#include "tests/support/WindowedRun.h"
 
 namespace teren {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int exitCode = -1;
-  std::string output, errors;
-};
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+using test::contents;
+using test::Outcome;
 
 class Fly : public testing::Test {
  protected:
@@ -53,17 +42,9 @@ class Fly : public testing::Test {
   void SetUp() override { ASSERT_FALSE(display_->name().empty()) << "Xvfb did not start"; }
 
   static Outcome run(const std::string& arguments) { return runOn(display_->name(), arguments); }
-  /// Without the leak sanitizer: Qt unloads the GL driver before it looks, so it cannot tell whose the
-  /// driver's leaks are.
+  /// Where `display` is followed by words, they run the program.
   static Outcome runOn(const std::string& display, const std::string& arguments) {
-    const fs::path output = folder_ / "output", errors = folder_ / "errors";
-    const std::string command =
-        "env -u WAYLAND_DISPLAY -u XDG_RUNTIME_DIR ASAN_OPTIONS=detect_leaks=0 LIBGL_ALWAYS_SOFTWARE=1 "
-        "DISPLAY=" +
-        display + " " TEREN_FLY_PROGRAM " " + arguments + " >" + output.string() + " 2>" + errors.string() +
-        " </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
+    return test::runOnDisplay(display, TEREN_FLY_PROGRAM " " + arguments, folder_);
   }
 
   /// The mean colour of a part of the picture, given in hundredths of its sides.

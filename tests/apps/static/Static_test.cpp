@@ -2,11 +2,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
@@ -20,14 +17,17 @@
 #include "apps/window/WindowProgram.h"
 #include "tests/apps/static/PictureParts.h"
 #include "tests/support/PrivateDisplay.h"
+#include "tests/support/WindowedRun.h"
 
 namespace teren {
 namespace {
 
 namespace fs = std::filesystem;
 using test::Colour;
+using test::contents;
 using test::countParts;
 using test::countPixels;
+using test::Outcome;
 
 constexpr const char* kGentle = "--generator fault --set deviation=1 --seed 5 ";  // no hill hides a piece
 
@@ -62,27 +62,13 @@ void expectApart(const QImage& picture) {
   EXPECT_EQ(countPixels(picture, Colour::black), 0);
 }
 
-struct Outcome {
-  int exitCode = -1;
-  std::string output, errors;
-};
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 class Static : public testing::Test {
  protected:
   Static() { fs::create_directories(folder_); }
   ~Static() override { fs::remove_all(folder_); }
 
   Outcome run(const std::string& arguments) const {
-    const fs::path output = folder_ / "output", errors = folder_ / "errors";
-    const std::string command = "env ASAN_OPTIONS=detect_leaks=0 " TEREN_STATIC_PROGRAM " " + arguments +
-                                " >" + output.string() + " 2>" + errors.string() + " </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
+    return test::runOnDisplay(std::getenv("DISPLAY"), TEREN_STATIC_PROGRAM " " + arguments, folder_);
   }
 
   /// The picture that a run of one second leaves.
