@@ -2,7 +2,6 @@
 // band and matrix filters against their own. Repetitions are interleaved at random; the ratios of the medians
 // come last.
 #include <cstdio>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "generators/filter/BandReference.h"
 #include "generators/filter/MatrixFilter.h"
 #include "generators/filter/MatrixReference.h"
+#include "tests/bench/MedianReporter.h"
 #include "tests/support/SlicedWork.h"
 
 namespace teren {
@@ -98,37 +98,8 @@ bool allAgree() {
   return true;
 }
 
-/// Prints as usual and keeps the medians.
-class MedianReporter : public benchmark::ConsoleReporter {
- public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs) {
-      if (run.aggregate_name == "median") medians_[run.run_name.function_name] = run.GetAdjustedCPUTime();
-    }
-  }
-
-  void printRatio(const char* slow, const char* fast, double wanted) const {
-    if (!medians_.contains(slow) || !medians_.contains(fast)) return;
-    std::printf("%s / %s = %.1f", slow, fast, medians_.at(slow) / medians_.at(fast));
-    if (wanted > 0.0) std::printf(" (wanted: at least %.0f)", wanted);
-    std::printf("\n");
-  }
-
- private:
-  std::map<std::string, double> medians_;
-};
-
 int runAll(int argc, char** argv) {
-  std::string interleave = "--benchmark_enable_random_interleaving=true";
-  std::string repeat = "--benchmark_repetitions=15";
-  std::string brief = "--benchmark_report_aggregates_only=true";
-  std::vector<char*> arguments{argv[0], interleave.data(), repeat.data(), brief.data()};
-  arguments.insert(arguments.end(), argv + 1, argv + argc);  // the last of two equal options wins
-  int count = static_cast<int>(arguments.size());
-  arguments.push_back(nullptr);
-  benchmark::Initialize(&count, arguments.data());
-  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+  if (!initializeRepeated(argc, argv)) return 2;
   if (!allAgree()) {
     std::fprintf(stderr, "the versions of fault formation disagree\n");
     return 1;
