@@ -177,6 +177,12 @@ std::vector<Hostile> impossibleWorlds() {
       {parameters(R"("deviation": 1e300)"), {"\"deviation\"", "1e+300", "m"}},
       {parameters(R"("deviation": "a\nb")"), {"\"deviation\"", "\"a?b\""}},
       {filter(R"("filter": "band", "parameters": {"k": 2})"), {"layer \"fault\"", "\"k\" of band", "is 2 "}},
+      {filter(R"("filter": "matrix", "parameters": {"matrix": "0 -1 0; -1 4 -1; 0 -1 0"})"),
+       {"layer \"fault\"", "\"matrix\"", "sum to 0"}},
+      {filter(R"("filter": "matrix", "parameters": {"matrix": "1 2; 3"})"),
+       {"layer \"fault\"", "\"matrix\"", "row 2 of its matrix has 1 elements, expected 2"}},
+      {filter(R"("filter": "matrix", "parameters": {"matrix": 3})"),
+       {"layer \"fault\"", "\"matrix\" of matrix", "is 3 ", "a text"}},
       // Names.
       {R"({"layers": [{"name": "a\nb", "generator": "fault"}, {"name": "a\nb", "generator": "fault"}]})",
        {"two layers", "\"a?b\""}},

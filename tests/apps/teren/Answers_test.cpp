@@ -1,4 +1,5 @@
 // The shapes of the answers in JSON, which scripts rely on.
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -76,6 +77,20 @@ TEST(DescribeAnswer, GivesIntegersAsIntegers) {
   EXPECT_EQ(faults.at("type"), "integer");
   EXPECT_TRUE(faults.at("default").is_number_integer());
   EXPECT_TRUE(faults.at("max").is_number_integer());
+}
+
+TEST(DescribeAnswer, SaysOfATextHowLongItMayBe) {
+  const Json answer = jsonOf({"describe", "matrix", "--json"});
+  EXPECT_EQ(answer.at("kind"), "filter");
+  const Json& parameters = answer.at("parameters");
+  const auto text = std::find_if(parameters.begin(), parameters.end(),
+                                 [](const Json& row) { return row.at("type") == "text"; });
+  ASSERT_NE(text, parameters.end());
+  EXPECT_EQ(text->at("name"), "matrix");
+  EXPECT_EQ(text->at("default"), "");
+  EXPECT_EQ(text->at("max"), 32768);
+  EXPECT_NE(teren({"describe", "matrix"}).output.find("matrix (text of at most 32768 bytes; default \"\")"),
+            std::string::npos);
 }
 
 TEST(QueryAnswer, HoldsBothHeightsANormalAndAnErrorBound) {
