@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <tuple>
-#include <unordered_map>
 
 namespace teren {
 
@@ -16,22 +16,60 @@ bool insideWorld(const NodeKey& key) noexcept {
   return key.i >= -most && key.i < most && key.j >= -most && key.j < most;
 }
 
-/// The level-0 nodes of the square with sides of 2 `margin` around a place, its own first.
-std::vector<NodeKey> nodesWithin(const Position& place, double margin, double pitch) {
-  const NodeKey own = nodeAt(place, 0);
-  std::vector<NodeKey> nodes;
-  if (insideWorld(own)) nodes.push_back(own);
-  const auto patches = [pitch](double offset) {
-    return static_cast<std::int64_t>(std::floor(offset / pitch));
-  };
-  const double east = place.u * pitch, north = place.v * pitch;
-  for (std::int64_t dj = patches(north - margin); dj <= patches(north + margin); ++dj) {
-    for (std::int64_t di = patches(east - margin); di <= patches(east + margin); ++di) {
-      const NodeKey key{0, own.i + di, own.j + dj};
-      if (key != own && insideWorld(key)) nodes.push_back(key);
+/// Times [s]; empty where from > to.
+struct Span {
+  double from = 0.0, to = std::numeric_limits<double>::infinity();
+};
+
+/// When a coordinate that begins at `at` and changes by `rate` a second is within low ... high, from now on.
+Span spanWithin(double at, double rate, double low, double high) {
+  if (rate == 0.0) return low <= at && at <= high ? Span{} : Span{0.0, -1.0};
+  const double first = (rate > 0.0 ? low - at : high - at) / rate;
+  const double last = (rate > 0.0 ? high - at : low - at) / rate;
+  return {std::max(first, 0.0), last};
+}
+
+/// The cells that a coordinate comes over during a span, `margin` wide to both sides; cells are 1 wide.
+struct Cells {
+  Cells(double at, double rate, const Span& span, double margin) {
+    const double a = at + rate * span.from, b = at + rate * span.to;
+    first = static_cast<std::int64_t>(std::floor(std::min(a, b) - margin));
+    last = static_cast<std::int64_t>(std::floor(std::max(a, b) + margin));
+  }
+  std::int64_t first = 0, last = 0;
+};
+
+/// A node on an object's way.
+struct Passage {
+  NodeKey key;
+  Span span;  ///< when the object is over it, or within its margin
+};
+
+/// All level-0 nodes that a square with sides of 2 `margin` [pitches] comes over within `seconds` on a
+/// straight way at so many pitches a second: its own first, then in the order in which they are reached.
+std::vector<Passage> passages(const Position& from, double eastRate, double northRate, double seconds,
+                              double margin) {
+  const NodeKey own = nodeAt(from, 0);
+  std::vector<Passage> passages;
+  const Cells columns(from.u, eastRate, {0.0, seconds}, margin);
+  for (std::int64_t column = columns.first; column <= columns.last; ++column) {
+    const auto west = static_cast<double>(column);
+    const Span inColumn = spanWithin(from.u, eastRate, west - margin, west + 1.0 + margin);
+    const Cells rows(from.v, northRate, {std::min(inColumn.from, seconds), std::min(inColumn.to, seconds)},
+                     margin);
+    for (std::int64_t row = rows.first; row <= rows.last; ++row) {
+      const auto south = static_cast<double>(row);
+      const Span inRow = spanWithin(from.v, northRate, south - margin, south + 1.0 + margin);
+      const Span span{std::max(inColumn.from, inRow.from), std::min(inColumn.to, inRow.to)};
+      const NodeKey key{0, own.i + column, own.j + row};
+      if (span.from <= std::min(span.to, seconds) && insideWorld(key)) passages.push_back({key, span});
     }
   }
-  return nodes;
+  std::sort(passages.begin(), passages.end(), [&own](const Passage& a, const Passage& b) {
+    return std::tuple(a.span.from, a.key != own, a.key.j, a.key.i) <
+           std::tuple(b.span.from, b.key != own, b.key.j, b.key.i);
+  });
+  return passages;
 }
 
 }  // namespace
@@ -67,30 +105,16 @@ bool mayStay(const NodeKey& key, const NodeKey& centre, const ViewSettings& view
 }
 
 GroundNodes groundNodes(const Motion& motion, const World& world) {
-  const double pitch = world.pitch(), margin = std::max(kGroundMargin, motion.reach);
+  const double pitch = world.pitch(), margin = std::max(kGroundMargin, motion.reach) / pitch;
   const double speed = std::sqrt(motion.east * motion.east + motion.north * motion.north);
-  constexpr double kStepsAPitch = 2.0;
-  const double stepSeconds = speed > 0.0 ? pitch / (kStepsAPitch * speed) : kGroundSeconds;
-  constexpr double kMostSteps = kStepsAPitch * kGroundPitches;
-  const double ahead = speed > 0.0 && std::isfinite(speed) ? std::ceil(kGroundSeconds / stepSeconds) : 0.0;
-  const double steps = std::min(ahead, kMostSteps);
-  std::vector<NodeKey> nodes;
-  std::unordered_map<NodeKey, double, NodeKeyHash> lastStep;
-  for (double step = 0.0; step <= steps; step += 1.0) {
-    const double seconds = std::min(step * stepSeconds, kGroundSeconds);
-    const double east = step > 0.0 ? motion.east * seconds : 0.0;
-    const double north = step > 0.0 ? motion.north * seconds : 0.0;
-    const Result<Position> place = motion.position.movedBy(east, north, pitch);
-    if (!place) break;  // beyond the world's end there is no ground
-    for (const NodeKey& key : nodesWithin(*place, margin, pitch)) {
-      if (lastStep.insert_or_assign(key, step).second) nodes.push_back(key);
-    }
-  }
+  const double secondsAhead = speed > 0.0 ? std::min(kGroundSeconds, kGroundPitches * pitch / speed) : 0.0;
+  const bool tooFast = !(secondsAhead >= kGroundNotice) && speed != 0.0;
+  const bool moves = speed > 0.0 && !tooFast;
+  const double seconds = moves ? secondsAhead : 0.0;
   GroundNodes ground;
-  for (const NodeKey& key : nodes) {
-    const double last = lastStep.at(key);
-    const bool isLeft = last < steps || ahead > steps;
-    const bool passing = !std::isfinite(speed) || (isLeft && (last + 1.0) * stepSeconds < kGroundNotice);
+  for (const auto& [key, span] : passages(motion.position, moves ? motion.east / pitch : 0.0,
+                                          moves ? motion.north / pitch : 0.0, seconds, margin)) {
+    const bool passing = tooFast || span.to + 0.5 * pitch / speed < kGroundNotice;
     (passing ? ground.passing : ground.wanted).push_back(key);
   }
   return ground;

@@ -18,13 +18,14 @@ std::vector<NodeKey> viewNodes(const Position& position, const ViewSettings& vie
 bool mayStay(const NodeKey& key, const NodeKey& centre, const ViewSettings& view, int margin) noexcept;
 
 /// The level-0 nodes an object needs: those within kGroundMargin (or its reach, if larger) of its place now
-/// and where its motion takes it within kGroundSeconds, in the order in which it reaches them, without a gap.
+/// and wherever its motion takes it within kGroundSeconds, be it only over a corner of one, in the order in
+/// which it reaches them.
 /// Only the next kGroundPitches of its way count, so a faster object's ground is wanted for a shorter time.
 struct GroundNodes {
   std::vector<NodeKey> wanted;
   /// It will have left these within kGroundNotice, most likely before they could be made: to be kept where
   /// they are held, but not made. For an object faster than kGroundPitches in kGroundNotice (about 160 km/s
-  /// over patches of 64 m) that is all there is.
+  /// over patches of 64 m) there are only these, and only around its place.
   std::vector<NodeKey> passing;
 };
 inline constexpr double kGroundMargin = 8.0;   ///< [m]

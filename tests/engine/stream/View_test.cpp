@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "teren/Hash.h"
+
 namespace teren {
 namespace {
 
@@ -60,6 +62,31 @@ TEST(GroundNodes, FollowTheWayWithoutAGapAtAnySpeed) {
       ASSERT_TRUE(known.contains({at.i, at.j})) << speed << " m/s after " << time << " s";
     }
     EXPECT_LE(known.size(), 4U * 129U);
+  }
+}
+
+TEST(GroundNodes, IncludeThoseOfWhichOnlyACornerIsCrossed) {
+  const auto world = plainWorld();
+  RandomSequence random(4711);
+  const auto draw = [&] { return static_cast<double>(random.nextBits(30)) * 0x1p-30; };
+  for (int trial = 0; trial < 500; ++trial) {
+    const double speed = 500.0 * draw(), east = 2.0 * draw() - 1.0, north = 2.0 * draw() - 1.0;
+    const double length = std::sqrt(east * east + north * north);
+    const Motion motion{{-3, 5, draw(), draw()}, 0.0, speed * east / length, speed * north / length};
+    const auto known = places(groundNodes(motion, *world).wanted);
+    std::set<std::pair<std::int64_t, std::int64_t>> met;
+    for (int k = 0; k <= 2000; ++k) {
+      const double time = kGroundSeconds * k / 2000.0;
+      for (const auto& [x, y] : {std::pair{0.0, 0.0}, {-7.9, -7.9}, {-7.9, 7.9}, {7.9, -7.9}, {7.9, 7.9}}) {
+        const Position at =
+            *motion.position.movedBy(motion.east * time + x, motion.north * time + y, world->pitch());
+        met.insert({at.i, at.j});
+      }
+    }
+    for (const auto& place : met) {
+      ASSERT_TRUE(known.contains(place)) << "trial " << trial << ": (" << place.first << ", " << place.second
+                                         << ") at " << motion.east << ", " << motion.north << " m/s";
+    }
   }
 }
 
