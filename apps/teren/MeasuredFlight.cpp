@@ -95,9 +95,13 @@ FlightResult MeasuredFlight::fly(const std::function<bool(std::int64_t, std::int
     update();
     lookAtGround(done);
     if (!plan_.paced || done % kUpdatesPerSecond == 0 || Clock::now() + plan_.budget < next) spin();
-    if (!plan_.paced) continue;
-    std::this_thread::sleep_until(next);
-    next = std::max(next, Clock::now() - kFrame);  // what is lost is not made up for by haste
+    if (plan_.paced) {
+      std::this_thread::sleep_until(next);
+      next = std::max(next, Clock::now() - kFrame);  // what is lost is not made up for by haste
+    } else {
+      waitForWorkers(next);
+      next = Clock::now();
+    }
   }
   result_.cpu = cpu_.percentiles();
   result_.wall = wall_.percentiles();
@@ -128,6 +132,14 @@ void MeasuredFlight::lookAtGround(std::int64_t update) {
   result_.updates = update + 1;
   if (result_.updates == 30 * kUpdatesPerSecond) result_.hashAt30Seconds = hash_.value();
   if (result_.updates == 60 * kUpdatesPerSecond) result_.residentAt60Seconds = residentBytes();
+}
+
+void MeasuredFlight::waitForWorkers(Clock::time_point most) const {
+  if (plan_.engine.workers == 0) return;
+  constexpr std::chrono::microseconds kBetweenLooks(50);
+  while (Clock::now() < most && engine_->figures().unfinishedTasks > 0) {
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
 }
 
 void MeasuredFlight::spin() {

@@ -64,8 +64,9 @@ class MeasuredFlight {
   /// Flies to the end, or until `progress(done, updates)`, asked before each update, returns false.
   ///
   /// After an update an empty loop lasts as long as the budget. Paced, it is left out where it would delay
-  /// the next update, but for one a second. Not paced, it gives workers as much time between two updates as
-  /// the caller has without them.
+  /// the next update, but for one a second. Not paced, the next update waits until workers have done what
+  /// they were given, at most as long as a paced one would: so they are never asked for more than in a paced
+  /// flight, however busy the machine is.
   FlightResult fly(const std::function<bool(std::int64_t done, std::int64_t updates)>& progress);
 
  private:
@@ -73,6 +74,7 @@ class MeasuredFlight {
   void update();
   void lookAtGround(std::int64_t update);
   void spin();
+  void waitForWorkers(std::chrono::steady_clock::time_point most) const;
 
   std::shared_ptr<const World> world_;
   FlightPlan plan_;

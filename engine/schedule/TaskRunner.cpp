@@ -123,9 +123,18 @@ std::vector<TaskRunner::Finished> TaskRunner::takeFinished() {
 
 std::size_t TaskRunner::pending() const {
   const std::lock_guard lock(mutex_);
+  return unfinishedOnes() + finished_.size();
+}
+
+std::size_t TaskRunner::unfinished() const {
+  const std::lock_guard lock(mutex_);
+  return unfinishedOnes();
+}
+
+std::size_t TaskRunner::unfinishedOnes() const {
   const auto cancelled =
       std::count_if(running_.begin(), running_.end(), [](const auto& running) { return running.second; });
-  return queue_.size() + running_.size() - static_cast<std::size_t>(cancelled) + finished_.size();
+  return queue_.size() + running_.size() - static_cast<std::size_t>(cancelled);
 }
 
 void TaskRunner::waitForFinished(std::chrono::milliseconds most) {

@@ -58,6 +58,8 @@ class TaskRunner {
   std::vector<Finished> takeFinished();
   /// Tasks submitted and neither cancelled nor taken.
   std::size_t pending() const;
+  /// Those of them that are not finished.
+  std::size_t unfinished() const;
   /// Waits until something is finished or the time is over; returns at once where no worker could finish
   /// anything.
   void waitForFinished(std::chrono::milliseconds most);
@@ -70,8 +72,9 @@ class TaskRunner {
   };
 
   void work();
-  Taken takeFirst();                // with mutex_ held
-  bool goesOn(const Place&) const;  // after a step, with mutex_ held
+  Taken takeFirst();                   // with mutex_ held
+  bool goesOn(const Place&) const;     // after a step, with mutex_ held
+  std::size_t unfinishedOnes() const;  // with mutex_ held
   void putAway(Taken&& taken, bool done, std::unique_ptr<SlicedTask>& dropped);
 
   mutable std::mutex mutex_;

@@ -200,6 +200,7 @@ EngineFigures Engine::figures() const noexcept {
   figures.peakBytes = std::max(streamer.peakBytes(), figures.bytes);
   figures.radius = streamer.plan().radius;
   figures.pending = streamer.missing();
+  figures.unfinishedTasks = streamer.unfinished();
   figures.slices = streamer.meter().slices();
   figures.lateSlices = streamer.meter().lateSlices();
   figures.lastUpdate = state.lastUpdate;

@@ -51,7 +51,8 @@ class Streamer {
   const SliceMeter& meter() const noexcept { return meter_; }
   const MemoryPlan& plan() const noexcept { return plan_; }
   std::size_t wanted() const noexcept { return wanted_.size(); }
-  std::size_t missing() const noexcept { return missing_; }  ///< of what is wanted
+  std::size_t missing() const noexcept { return missing_; }        ///< of what is wanted
+  std::size_t unfinished() const { return runner_.unfinished(); }  ///< tasks
   std::size_t bytes() const;
   std::size_t peakBytes() const noexcept { return peakBytes_; }
   void setRendererBytes(std::size_t bytes) noexcept;

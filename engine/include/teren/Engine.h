@@ -47,6 +47,7 @@ struct EngineFigures {
   std::size_t peakBytes = 0;               ///< the most held so far
   int radius = 0;                          ///< of the view drawn: less than asked for under the cap
   std::size_t pending = 0;                 ///< nodes wanted and not there yet
+  std::size_t unfinishedTasks = 0;         ///< given to workers (or to later slices), at this moment
   std::uint64_t slices = 0;                ///< begun since the engine was made
   std::uint64_t lateSlices = 0;            ///< that ended beyond the budget
   std::chrono::nanoseconds lastUpdate{0};  ///< wall time of the last update

@@ -95,8 +95,10 @@ TEST(TaskRunner, RunsTheMostUrgentFirstAndTiesInTheOrderOfSubmission) {
   runner.submit(task(log, 2), 5);
   runner.submit(task(log, 3), 0);
   EXPECT_EQ(runner.pending(), 4U);
+  EXPECT_EQ(runner.unfinished(), 4U);
   stepEverything(runner);
   EXPECT_EQ(runner.pending(), 4U);
+  EXPECT_EQ(runner.unfinished(), 0U);
   EXPECT_EQ(numbers(runner.takeFinished()), (std::vector<int>{1, 3, 0, 2}));
   EXPECT_EQ(runner.pending(), 0U);
 }
