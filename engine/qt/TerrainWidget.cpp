@@ -13,6 +13,7 @@
 #include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QMouseEvent>
+#include <QOpenGLContext>
 #include <QPointer>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -60,8 +61,14 @@ class TerrainWidget::Private {
   Result<void> setWorld(const Result<WorldDescription>& description);
   Result<void> makeEngine(std::shared_ptr<const World> newWorld, const EngineOptions& newOptions);
   Result<void> setViewer(const Viewer& next);
+  /// Says so, once, where nothing can be drawn.
+  void complainWithoutOpenGL();
   /// Says an error through the signal too.
   Result<void> report(Result<void> result) const;
+
+  void makeArea();
+  /// What Inventor draws into; nullptr without an area.
+  QWidget* canvas() const { return area ? area->getGLWidget() : nullptr; }
 
   void wake(int frames);
   void work();
@@ -84,19 +91,25 @@ class TerrainWidget::Private {
   double toldHeight = 0.0;        // of the eye, in the last positionChanged
   QElapsedTimer sinceFigures;
   int framesToDraw = 0;
+  bool complained = false;  // of a missing OpenGL
   QPoint dragFrom;
   TerrainStage stage;
-  std::unique_ptr<TerrainArea> area;  // goes before the stage
+  std::unique_ptr<TerrainArea> area;  // goes before the stage; null where there is no OpenGL
   QTimer timer;
 };
 
-TerrainWidget::Private::Private(TerrainWidget& owner)
-    : widget(owner), area(std::make_unique<TerrainArea>(&owner, [this] { drawn(); })), timer(&owner) {
+TerrainWidget::Private::Private(TerrainWidget& owner) : widget(owner), timer(&owner) {
+  timer.setInterval(kBetweenUpdates);
+  timer.callOnTimeout(&owner, [this] { work(); });
+}
+
+void TerrainWidget::Private::makeArea() {
+  // Without OpenGL, SoQt would open a dialog and wait for its end.
+  if (QOpenGLContext context; !context.create()) return;
+  area = std::make_unique<TerrainArea>(&widget, [this] { drawn(); });
   area->setBackgroundColor(stage.terrain().hazeColor.getValue());
   area->setSceneGraph(stage.root());
   area->show();
-  timer.setInterval(kBetweenUpdates);
-  timer.callOnTimeout(&owner, [this] { work(); });
 }
 
 // --- The world and its engine
@@ -142,6 +155,13 @@ Result<void> TerrainWidget::Private::report(Result<void> result) const {
   return result;
 }
 
+void TerrainWidget::Private::complainWithoutOpenGL() {
+  if (complained || area) return;
+  complained = true;
+  Q_EMIT widget.errorOccurred(
+      QStringLiteral("OpenGL is not to be had on this display, so no land can be drawn"));
+}
+
 // --- Working and resting
 // ------------------------------------------------------------------------------------------
 
@@ -160,7 +180,7 @@ void TerrainWidget::Private::work() {
   }
   if (framesToDraw > 0) {
     --framesToDraw;
-    area->scheduleRedraw();
+    if (area) area->scheduleRedraw();
   }
   const bool resting = framesToDraw == 0 && !changed && (!engine || engine->figures().pending == 0);
   if (resting) timer.stop();
@@ -217,15 +237,17 @@ void TerrainWidget::Private::tell(bool resting) {
 TerrainWidget::TerrainWidget(QWidget* parent) : QWidget(parent) {
   startInventor();
   private_ = std::make_unique<Private>(*this);
+  private_->makeArea();
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+  QWidget* canvas = private_->canvas();
+  if (canvas == nullptr) return;
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(private_->area->getWidget());
-  QWidget* canvas = private_->area->getGLWidget();
   canvas->installEventFilter(this);  // after SoQt's own, so it sees the events first
   canvas->setMouseTracking(true);
   canvas->setFocusPolicy(Qt::NoFocus);
-  setFocusPolicy(Qt::StrongFocus);
-  setMouseTracking(true);
 }
 
 TerrainWidget::~TerrainWidget() {
@@ -279,7 +301,8 @@ double TerrainWidget::eyeHeight() const noexcept {
 }
 
 std::optional<GroundPoint> TerrainWidget::pick(const QPoint& point) const {
-  const QWidget* canvas = private_->area->getGLWidget();
+  const QWidget* canvas = private_->canvas();
+  if (canvas == nullptr) return std::nullopt;
   const QPoint inside = canvas->mapFrom(this, point);
   if (!canvas->rect().contains(inside)) return std::nullopt;
   const auto width = static_cast<float>(canvas->width()), height = static_cast<float>(canvas->height());
@@ -313,6 +336,8 @@ bool TerrainWidget::event(QEvent* event) {
   if (!private_) return handled;  // while it is being made or deleted
   switch (event->type()) {
     case QEvent::Show:
+      private_->complainWithoutOpenGL();
+      [[fallthrough]];
     case QEvent::ParentChange:
       window()->installEventFilter(this);  // it is told when it is minimized
       private_->wake(kFramesAfterShow);
@@ -332,7 +357,7 @@ bool TerrainWidget::event(QEvent* event) {
 /// The native window of the canvas gets the mouse; the events belong to the widget.
 bool TerrainWidget::eventFilter(QObject* watched, QEvent* event) {
   if (!private_) return QWidget::eventFilter(watched, event);
-  QWidget* canvas = private_->area->getGLWidget();
+  QWidget* canvas = private_->canvas();
   if (watched == window() && event->type() == QEvent::WindowStateChange) {
     private_->timer.stop();
     private_->wake(kFramesAfterShow);

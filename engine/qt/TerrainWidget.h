@@ -94,7 +94,8 @@ class TerrainWidget : public QWidget {
   void positionChanged(const teren::Viewer& viewer, double eyeHeight);
   /// At most ten times a second while the engine works, and when it comes to rest.
   void figuresChanged(const teren::EngineFigures& figures);
-  /// One sentence: what a call has refused, or a plugin that misbehaves.
+  /// One sentence: what a call has refused, a plugin that misbehaves, or, when the widget is first shown,
+  /// that OpenGL is missing.
   void errorOccurred(const QString& sentence);
   /// The mouse was moved over the widget, with or without a button.
   void cursorMoved(const QPoint& point);

@@ -40,13 +40,17 @@ void startVisit() {
   });
 }
 
-/// Runs the program with a visitor, who comes when its window is there.
-void runProgram(std::function<void()> visitor) {
-  const PrivateDisplay display;
-  ASSERT_FALSE(display.name().empty()) << "Xvfb did not start";
-  setenv("DISPLAY", display.name().c_str(), 1);
+/// Runs the program with a visitor, who comes when its window is there; on a display of its own, or on none.
+void runProgram(std::function<void()> visitor, bool onDisplay = true) {
+  const auto display = onDisplay ? std::make_unique<PrivateDisplay>() : nullptr;
+  if (display) {
+    ASSERT_FALSE(display->name().empty()) << "Xvfb did not start";
+    setenv("DISPLAY", display->name().c_str(), 1);
+  } else {
+    unsetenv("DISPLAY");
+  }
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-  setenv("QT_QPA_PLATFORM", "xcb", 1);
+  setenv("QT_QPA_PLATFORM", onDisplay ? "xcb" : "offscreen", 1);
   visit = std::move(visitor);
   char name[] = "teren-embed";
   char* arguments[] = {name, nullptr};
@@ -142,6 +146,17 @@ TEST(Embed, GoesOnWhenItsLandIsMovedHiddenDeletedAndMadeAgain) {
     ASSERT_TRUE(comesToRest(*again));
     EXPECT_LT(difference(screenOf(*again), first), 0.01) << "made again in the program's window";
   });
+}
+
+TEST(Embed, SaysSoWhereThereIsNoOpenGL) {
+  runProgram(
+      [] {
+        const Window program;
+        const std::string said = program.label->text().toStdString();
+        EXPECT_NE(said.find("OpenGL"), std::string::npos) << said;
+        EXPECT_TRUE(comesToRest(*program.land));
+      },
+      false);
 }
 
 }  // namespace
