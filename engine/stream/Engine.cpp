@@ -184,7 +184,7 @@ std::optional<double> Engine::drawnHeight(const Position& position) const {
   return state_->drawnHeight(position);
 }
 std::optional<double> Engine::finestHeight(const Position& position) const {
-  return state_->streamer.nodes().height(position, 0);
+  return position.valid() ? state_->streamer.nodes().height(position, 0) : std::nullopt;
 }
 const Ground& Engine::ground() const noexcept {
   return *state_;

@@ -17,13 +17,9 @@ constexpr double kInGround = 1e-6;
 /// What is wrong with a motion; empty: nothing.
 std::string faultOf(const Motion& motion) {
   const Position& at = motion.position;
-  if (std::min(at.i, at.j) < -kMaxPatch || std::max(at.i, at.j) >= kMaxPatch) {
-    return "a patch beyond the world, which ends at +-2^52 pitches";
-  }
-  for (const double share : {at.u, at.v}) {
-    if (!(share >= 0.0 && share < 1.0)) {
-      return "a place in its patch of " + numberText(share) + ", expected 0 to less than 1";
-    }
+  if (!at.valid()) {
+    return "a position of patch (" + std::to_string(at.i) + ", " + std::to_string(at.j) + ") and place (" +
+           numberText(at.u) + ", " + numberText(at.v) + ") in it, which is not in the world";
   }
   if (!(std::fabs(motion.height) <= kMostHeight)) {
     return "a height of " + numberText(motion.height) + " m, expected -1e9 to 1e9";
