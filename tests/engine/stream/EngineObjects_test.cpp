@@ -92,18 +92,18 @@ TEST_P(EngineObjects, AfterAJumpTheGroundComesBeforeTheView) {
 }
 
 TEST_P(EngineObjects, AMadObjectStarvesNobody) {
-  world_ = smallWorld(129);  // a node takes several updates
+  world_ = smallWorld(257);  // a node takes several updates
   for (const double speed : {1e6, 1e12, 1e300, 1.7e308}) {
-    auto made = Engine::create(world_, {.view = {1, 2}, .workers = GetParam()});
+    auto made = Engine::create(world_, {.view = {1, 1}, .workers = GetParam()});
     engine_ = std::move(*made);
     const Rocket& calm = add({{10, 10, 0.5, 0.5}, 1e4});
     add({{}, 1e4, speed, -speed});
     int steps = 0;
     do {
-      engine_->update(1.0 / 60.0, std::chrono::microseconds(10));
-    } while (engine_->figures().pending > 0 && ++steps < 100'000);
+      engine_->update(1.0 / 60.0, std::chrono::microseconds(300));
+    } while (engine_->figures().pending > 0 && ++steps < 10'000);
     EXPECT_EQ(engine_->figures().pending, 0U) << speed;
-    EXPECT_GE(engine_->figures().nodes, 25U) << speed;
+    EXPECT_GE(engine_->figures().nodes, 9U) << speed;
     engine_->update(1.0 / 60.0, milliseconds(1));
     EXPECT_TRUE(calm.hadGround) << speed;
   }
