@@ -45,6 +45,8 @@ TEST(Misbehaviour, FailsBakeAndQueryWithOneSentenceAndNoFile) {
     named.push_back("\"never.r32\" was not written");
     expectRefused(bake, 1, named);
     if (wrong.work == "endless") continue;  // once is enough: sixteen million steps
+    bake.insert(bake.end(), {"--workers", "3"});
+    expectRefused(bake, 1, wrong.needles);
     for (const Arguments& json : {Arguments(), Arguments{"--json"}}) {
       Arguments query = {"query", "1", "2", "-3", "4"};
       query.insert(query.end(), world.begin(), world.end());
