@@ -21,8 +21,8 @@ inline constexpr double kSamplingError = 0x1p-46;
 /// The drawn surface: two flat triangles a square, split from south-west to north-east. Continuous.
 double triangleHeight(ConstHeightView heights, double x, double y) noexcept;
 
-/// Weighted by distance along both axes. Continuous, never beyond the four heights around, creased along the
-/// lines of samples.
+/// Weighted by distance along both axes. Continuous, beyond the four heights around only by rounding, creased
+/// along the lines of samples.
 double bilinearHeight(ConstHeightView heights, double x, double y) noexcept;
 
 /// The landscape's own interpolant between the samples of a base map: Catmull-Rom splines (Keys 1981,

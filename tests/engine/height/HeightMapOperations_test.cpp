@@ -249,7 +249,7 @@ TEST(HeightMapOperations, GiveNaNWhereAnOperandIsNaNAndOnlyThere) {
   }
 }
 
-TEST(HeightMapOperations, OfALerpAreExactAtBothEndsAndOfEqualMaps) {
+TEST(HeightMapOperations, OfALerpAreExactAtBothEndsAndOfEqualMapsAndBetweenThem) {
   const HeightMap low = randomMap(42, 30, 30, 0.0, 1e-10), high = randomMap(43, 30, 30, 0.0, 1e10);
   HeightMap map = high;
   lerpHeights(low.view(), 0.0, map.view());
@@ -260,6 +260,14 @@ TEST(HeightMapOperations, OfALerpAreExactAtBothEndsAndOfEqualMaps) {
     map = high;
     lerpHeights(high.view(), t, map.view());
     EXPECT_TRUE(test::sameBits(map.view(), high.view())) << t;
+    const HeightMap other = randomMap(54, 30, 30, 0.0, 1e10);
+    lerpHeights(other.view(), t, map.view());
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 30; ++x) {
+        ASSERT_GE(map(x, y), std::min(high(x, y), other(x, y))) << t;
+        ASSERT_LE(map(x, y), std::max(high(x, y), other(x, y))) << t;
+      }
+    }
   }
 }
 
