@@ -1,6 +1,7 @@
 // Runs tasks slice by slice against a deadline (law 4), learning by measurement how far their steps overrun.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
@@ -12,7 +13,8 @@ namespace teren {
 ///
 /// A step ends after the unit of work in which its slice ran out, so it overruns by up to one unit. The meter
 /// measures these overruns and asks for slices that end early by the largest recent one (which decays by 1/64
-/// a slice): no slice starts after the deadline, and few end beyond it, on any machine.
+/// a slice), but by no more than half the frame, so that a hiccup does not stop the work where budgets are
+/// tight: no slice starts after the deadline, and few end beyond it, on any machine.
 class SliceMeter {
  public:
   using Clock = Slice::Clock;
@@ -35,8 +37,12 @@ class SliceMeter {
   static constexpr Clock::duration kLongestOverrun = std::chrono::microseconds(500);
 
  private:
+  /// How long before the deadline a slice must start, and is asked to end.
+  Clock::duration spared() const noexcept { return std::min(overrun_, mostSpared_); }
+
   Clock::time_point deadline_{};
-  Clock::time_point start_{};  // of the slice that mayStart allowed
+  Clock::time_point start_{};      // of the slice that mayStart allowed
+  Clock::duration mostSpared_{0};  // half the frame
   bool allowed_ = false;
   bool firstOfFrame_ = true;
   Clock::duration overrun_{0};

@@ -86,6 +86,23 @@ TEST(SliceMeter, LearnsFromOverrunsAndThenAsksForLess) {
   EXPECT_LT(task.deadlines.back(), deadline);
 }
 
+TEST(SliceMeter, GoesOnUnderTightBudgetsAfterAHiccup) {
+  SliceMeter meter;
+  SpinTask slow(std::chrono::milliseconds(2), 1);
+  beginAllowedFrame(meter, std::chrono::microseconds(10));
+  (void)meter.step(slow);
+  ASSERT_EQ(meter.expectedOverrun(), SliceMeter::kLongestOverrun);
+  int frames = 0, second = 0;  // slices after the first of a frame; a pause of this thread may cost some
+  for (; frames < 20 && second == 0; ++frames) {
+    SpinTask quick(Clock::duration{0}, 1);
+    beginAllowedFrame(meter, std::chrono::microseconds(100));
+    (void)meter.step(quick);
+    if (meter.mayStart()) ++second;
+  }
+  EXPECT_EQ(second, 1) << "in " << frames << " frames";
+  EXPECT_GT(meter.expectedOverrun(), std::chrono::microseconds(100));
+}
+
 TEST(SliceMeter, ForgetsASingleHiccupInTime) {
   SliceMeter meter;
   SpinTask slow(std::chrono::milliseconds(2), 1);
