@@ -146,7 +146,7 @@ Result<void> TerrainWidget::Private::setViewer(const Viewer& next) {
   look();
   wake(0);
   toldHeight = widget.eyeHeight();
-  Q_EMIT widget.positionChanged(viewer, toldHeight);
+  Q_EMIT widget.positionChanged(Viewer(next), toldHeight);
   return {};
 }
 
@@ -167,6 +167,7 @@ void TerrainWidget::Private::complainWithoutOpenGL() {
 
 void TerrainWidget::Private::wake(int frames) {
   framesToDraw = std::max(framesToDraw, frames);
+  if (timer.isActive()) return;  // starting it anew with every move would keep it from ever ending
   if (widget.isVisible() && !widget.window()->isMinimized()) timer.start();
 }
 
@@ -223,7 +224,7 @@ void TerrainWidget::Private::tell(bool resting) {
   }
   if (widget.eyeHeight() != toldHeight) {
     toldHeight = widget.eyeHeight();
-    Q_EMIT widget.positionChanged(viewer, toldHeight);
+    Q_EMIT widget.positionChanged(Viewer(viewer), toldHeight);
     if (!alive) return;
   }
   if (!resting && sinceFigures.isValid() && sinceFigures.elapsed() < kBetweenFigures) return;

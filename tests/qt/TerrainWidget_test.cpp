@@ -395,6 +395,18 @@ TEST(TerrainWidget, TurnsWithTheMouseAndGoesWithTheWheel) {
   EXPECT_NEAR(land->viewer().heightAboveGround, 1.15 * before.heightAboveGround, 1e-6);
 }
 
+TEST(TerrainWidget, WorksAlsoWhileItIsMovedWithoutAPause) {
+  const auto land = landAtRest();
+  const auto before = land->figures().slices;
+  Viewer viewer = land->viewer();
+  for (int turn = 0; turn < 400 && land->figures().slices == before; ++turn) {
+    viewer.position.i += 1;
+    ASSERT_TRUE(land->setViewer(viewer).ok());
+    QTest::qWait(1);
+  }
+  EXPECT_GT(land->figures().slices, before);
+}
+
 TEST(TerrainWidget, MayBeDeletedByWhomItTellsOfItsFigures) {
   TerrainWidget* land = landAtRest().release();
   const QPointer<TerrainWidget> alive(land);
