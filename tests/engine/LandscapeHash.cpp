@@ -31,6 +31,7 @@
 #include "teren/Hash.h"
 #include "teren/PluginRegistry.h"
 #include "teren/Position.h"
+#include "teren/Script.h"
 #include "teren/World.h"
 
 namespace {
@@ -113,6 +114,27 @@ void addPoints(Fnv1a& hash, const World& world, std::uint64_t visitSeed) {
     add(hash, points[index].drawn);
     for (const double component : points[index].normal) add(hash, component);
     add(hash, points[index].error);
+  }
+}
+
+/// Where scripts lead in an hour: objects are where they are to the last bit, too.
+void addScripts(Fnv1a& hash) {
+  const teren::Course course{.start = {kFar, -7, 0.3, 0.6}, .east = 3.0, .north = -4.0, .speed = 300.0};
+  const std::vector<teren::Waypoint> points{
+      {{0, 0, 0.1, 0.2}, 5.0}, {{9, 1, 0.0, 0.0}, 50.0}, {{3, 3, 0.3, 0.0}, 1.0}};
+  for (const auto& script :
+       {valueOrExit(teren::straightScript(course)), valueOrExit(teren::circleScript(course, 700.0)),
+        valueOrExit(teren::turnsScript(course)),
+        valueOrExit(teren::waypointScript(points, 30.0, 64.0, true))}) {
+    for (int tick = 0; tick < 216'000; tick += 97) {
+      const teren::Motion motion = valueOrExit(script->at(tick / 60.0));
+      add(hash, motion.position.i);
+      add(hash, motion.position.j);
+      for (const double value :
+           {motion.position.u, motion.position.v, motion.height, motion.east, motion.north}) {
+        add(hash, value);
+      }
+    }
   }
 }
 
@@ -210,6 +232,7 @@ std::uint64_t landscapeHash(const Trial& trial) {
     addPoints(hash, *world, trial.visitSeed);
     addSurfaces(hash, world, trial);
   }
+  addScripts(hash);
   return hash.value();
 }
 
