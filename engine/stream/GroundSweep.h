@@ -44,9 +44,9 @@ class GroundSweep {
   /// `pitch` [m] of the world; `ground` must outlive it.
   GroundSweep(const FinestGround& ground, double pitch) : ground_(ground), pitch_(pitch) {}
 
-  /// The first touch of a ball with the ground, coming from above. Costs about half a microsecond for each
-  /// grid square near the part of the way that is low enough; a way of more patches than are held costs as
-  /// many as are held.
+  /// The first touch of a ball with the ground, coming from above. Costs about 4 us for a ball of 3 m that
+  /// dives 100 m onto squares of 2 m (bench-objects), more in proportion to the squares its way comes near; a
+  /// way of more patches than are held costs as many as are held.
   std::optional<Touch> sweep(const Position& origin, const MovingBall& ball) const;
 
   struct Rest {

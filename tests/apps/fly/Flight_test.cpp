@@ -9,6 +9,8 @@
 
 #include "teren/PluginRegistry.h"
 
+#include "apps/fly/CameraRig.h"
+
 namespace teren {
 namespace {
 
@@ -103,6 +105,34 @@ TEST(Flight, TheSecondAircraftPassesOnTheLeft) {
     EXPECT_GT(ahead, 100.0);
     EXPECT_TRUE(flight->aircraft()[1]->followsScript());
   }
+}
+
+TEST(Flight, TheSecondAircraftIsInTheLeftOfThePictureAsItPasses) {
+  const std::unique_ptr<Flight> flight = flightAt({0, 0, 60.0 / 64.0, 0.0}, 60.0, 0.0);
+  ASSERT_TRUE(flight);
+  flight->settle(kToTheEnd);
+  CameraRig rig;
+  int seen = 0;
+  for (int frame = 0; frame < 60 * 8; ++frame) {
+    flight->advance(1.0 / 60.0);
+    rig.update(1.0 / 60.0, {}, poseOf(flight->activeObject()));
+    const Viewpoint view = rig.viewpoint(poseOf(flight->activeObject()), flight->engine().ground(), -1e9);
+    const Motion second = flight->aircraft()[1]->motion();
+    const Offset away = offset(view.pose.position, second.position, 64.0);  // the view is to the north
+    const double up = std::atan2(second.height - view.pose.height, away.north) - view.pose.pitch;
+    const double left = std::atan2(-away.east, away.north);
+    const double half = 0.5 * view.fieldOfView;
+    const bool inPicture =
+        away.north > 0.0 && std::abs(up) < half && std::abs(std::tan(left)) < std::tan(half) * 16.0 / 9.0;
+    if (inPicture) {
+      EXPECT_GT(left, 0.0);
+      ++seen;
+    }
+    if (frame >= 60 * 3 && frame < 60 * 6) {
+      EXPECT_TRUE(inPicture) << frame / 60.0 << " s";
+    }
+  }
+  EXPECT_GT(seen, 60 * 4);
 }
 
 TEST(Flight, AnAircraftDrivenIntoAHillIsNeverBelowTheGround) {
