@@ -78,6 +78,11 @@ MapRequest request(int n, int samples, int level = 0) {
 /// plugin's rows of the table say too little.
 std::vector<Entries> typicalSettings(const PluginInfo& info) {
   std::vector<Entries> settings{{}};
+  if (info.id == "spectral") {
+    settings.push_back({{"rule", std::string("published")}});
+    settings.push_back({{"hurst", 0.2}, {"harmonics", std::int64_t{128}}});
+    settings.push_back({{"time", 2.5}, {"windEast", 4.0}, {"windNorth", 13.0}});
+  }
   if (info.id == "matrix") {
     settings.push_back({{"passes", std::int64_t{2}}});
     settings.push_back(
@@ -440,7 +445,7 @@ TEST(Plugins, TakeMatricesOfAnyOddSideAndRefuseOthersWithASentence) {
 }
 
 TEST(Plugins, AreAllFoundAndNoneIsRefused) {
-  for (const char* id : {"band", "constant", "fault", "matrix", "slope", "steps"})
+  for (const char* id : {"band", "constant", "fault", "matrix", "slope", "spectral", "steps"})
     EXPECT_NE(registry().find(id), nullptr) << id;
   for (const RefusedModule& module : registry().refused())
     ADD_FAILURE() << module.file << ": " << module.reason;
