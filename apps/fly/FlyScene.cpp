@@ -43,6 +43,7 @@ FlyScene::FlyScene(const Daylight& light, Engine& engine, double viewDistance)
   sun->direction = -light.sun;
   sun->color = light.sunlight;
   root_->addChild(sun);
+  terrain_->setScene(engine.scene());  // first: fields of a node without an engine of its own are few
   terrain_->waterLevel = light.waterLevel;
   terrain_->hazeColor = light.haze;
   terrain_->viewDistance = distance;

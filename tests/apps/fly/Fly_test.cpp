@@ -144,6 +144,12 @@ TEST_F(Fly, LeavesExactlyTheFiguresThatScriptsReadOn) {
   EXPECT_GT(stats["bytes"].get<double>(), 12.0 * stats["triangles"].get<double>() / 2.0);
 }
 
+TEST_F(Fly, HasNothingToSayAboutAWorldOfAnotherPitch) {
+  const Outcome flown = run("--generator fault --pitch 1024 --seconds 0 --size 200x100");
+  EXPECT_EQ(flown.exitCode, 0);
+  EXPECT_EQ(flown.errors, "");
+}
+
 TEST_F(Fly, RefusesAWrongCommandLineInOneSentence) {
   for (const char* arguments : {"--speed fast",
                                 "--speed -3",
