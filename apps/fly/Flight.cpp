@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "teren/ProcessorTime.h"
+
 namespace teren {
 namespace {
 
@@ -45,8 +47,13 @@ void Flight::settle(const std::function<bool(std::size_t done, std::size_t wante
 }
 
 void Flight::advance(double dt) {
-  engine_->update(std::clamp(dt, 0.0, kLongestStep), kBudget);
+  engine_->update(std::clamp(dt, 0.0, kLongestStep), budget_.next());
+  updated_ = threadProcessorTime();
   engineTimes_.add(std::chrono::duration<double, std::micro>(engine_->figures().lastUpdate).count());
+}
+
+void Flight::frameDone() {
+  budget_.measured(threadProcessorTime() - updated_);
 }
 
 void Flight::nextObject() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "teren/Engine.h"
+#include "teren/FrameBudget.h"
 
 #include "apps/fly/Aircraft.h"
 #include "apps/window/FrameStatistics.h"
@@ -16,8 +17,7 @@ namespace teren {
 /// follows a script straight on and so passes on the left. One of them, the active one, is steered.
 class Flight {
  public:
-  /// How long each update may work.
-  static constexpr std::chrono::milliseconds kBudget{4};
+  static constexpr double kFramesPerSecond = 60.0;       // wanted: the engine gets what they leave
   static constexpr double kLongestStep = 0.1;            // [s]
   static constexpr double kLeft = 60.0, kBehind = 60.0;  // [m]
   static constexpr double kLower = 45.0;                 // [m] so that it stays in the picture
@@ -29,8 +29,11 @@ class Flight {
   /// Engine::settle, with the aircraft put above the ground as it becomes known.
   void settle(const std::function<bool(std::size_t done, std::size_t wanted)>& progress);
 
-  /// Moves all by dt [s], brought between 0 and kLongestStep, and lets the engine work within its budget.
+  /// Begins a frame: moves all by dt [s], brought between 0 and kLongestStep, and lets the engine work for as
+  /// long as the frames before have left it.
   void advance(double dt);
+  /// Ends the frame, on the same thread.
+  void frameDone();
   void nextObject();
 
   Engine& engine() noexcept { return *engine_; }
@@ -46,6 +49,8 @@ class Flight {
   std::unique_ptr<Engine> engine_;
   std::vector<Aircraft*> aircraft_;
   FrameStatistics engineTimes_;
+  FrameBudget budget_{kFramesPerSecond};
+  std::chrono::nanoseconds updated_{0};  // processor time when the engine was done
 };
 
 }  // namespace teren

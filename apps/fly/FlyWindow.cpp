@@ -121,6 +121,7 @@ void FlyWindow::tick() {
   } else {
     area_->render();
   }
+  flight_.frameDone();
   const Clock::time_point presented = Clock::now();
   frameTimes_.add(1e3 * seconds(presented - lastPresented_));
   lastPresented_ = presented;

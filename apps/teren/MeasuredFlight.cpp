@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <ctime>
 #include <fstream>
 #include <thread>
 #include <tuple>
 #include <unistd.h>
 #include <utility>
+
+#include "teren/ProcessorTime.h"
 
 namespace teren {
 namespace {
@@ -15,12 +16,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kStep = 1.0 / static_cast<double>(kUpdatesPerSecond);  // [s]
-
-std::chrono::nanoseconds threadTime() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
 
 std::size_t residentBytes() {
   std::size_t program = 0, resident = 0;
@@ -114,9 +109,9 @@ FlightResult MeasuredFlight::fly(const std::function<bool(std::int64_t, std::int
 
 void MeasuredFlight::update() {
   const Clock::time_point start = Clock::now();
-  const std::chrono::nanoseconds used = threadTime();
+  const std::chrono::nanoseconds used = threadProcessorTime();
   engine_->update(kStep, plan_.budget);
-  cpu_.add(threadTime() - used);
+  cpu_.add(threadProcessorTime() - used);
   wall_.add(Clock::now() - start);
 }
 

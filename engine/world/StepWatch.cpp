@@ -1,7 +1,8 @@
 #include "world/StepWatch.h"
 
 #include <algorithm>
-#include <ctime>
+
+#include "teren/ProcessorTime.h"
 
 namespace teren {
 
@@ -9,12 +10,6 @@ namespace {
 
 using Clock = Slice::Clock;
 using std::chrono::nanoseconds;
-
-nanoseconds processorTime() noexcept {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::chrono::seconds(time.tv_sec) + nanoseconds(time.tv_nsec);
-}
 
 bool isUnlimited(const Slice& slice) noexcept {
   return slice.deadline() == Clock::time_point::max();
@@ -30,7 +25,7 @@ StepWatch::Start StepWatch::start(const Slice& slice) noexcept {
   latest.wall = Clock::now();
   if (latest.wall - latest.readAt > kOldest) {
     latest.readAt = latest.wall;
-    latest.processor = processorTime();
+    latest.processor = threadProcessorTime();
   }
   return latest;
 }
@@ -44,7 +39,7 @@ std::optional<Overrun> StepWatch::finish(const Slice& slice, const Start& start)
   }
   // Between its reading and the step the processor's clock ran at most as fast as the wall's: never more is
   // counted than was used.
-  const nanoseconds used = processorTime() - start.processor - (start.wall - start.readAt);
+  const nanoseconds used = threadProcessorTime() - start.processor - (start.wall - start.readAt);
   if (used - given <= kNear) {
     inARow_.store(0, std::memory_order_relaxed);
     return std::nullopt;

@@ -20,8 +20,8 @@ class FrameBudget {
   std::chrono::nanoseconds frame() const noexcept { return frame_; }
   /// What Engine::update may have in the frame that begins. Before the first measurement: a quarter of it.
   std::chrono::nanoseconds next() const noexcept;
-  /// After a frame: the time it was at work besides Engine::update, waiting for its turn not included.
-  /// Negative counts as 0.
+  /// After a frame: the time its thread was at work besides Engine::update, waiting for the screen not
+  /// included (threadProcessorTime measures that). Negative counts as 0.
   void measured(std::chrono::nanoseconds rest) noexcept;
 
  private:

@@ -2,7 +2,6 @@
 // wait without using any; no test asserts how long anything took by the wall.
 #include "world/StepWatch.h"
 
-#include <ctime>
 #include <functional>
 #include <string>
 #include <thread>
@@ -10,6 +9,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "teren/ProcessorTime.h"
 
 #include "tests/engine/world/HashNoise.h"
 #include "tests/engine/world/TestLayer.h"
@@ -21,15 +22,9 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-nanoseconds threadTime() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::chrono::seconds(time.tv_sec) + nanoseconds(time.tv_nsec);
-}
-
 void burn(nanoseconds time) {
-  const nanoseconds start = threadTime();
-  while (threadTime() - start < time) {
+  const nanoseconds start = threadProcessorTime();
+  while (threadProcessorTime() - start < time) {
   }
 }
 
