@@ -124,7 +124,6 @@ bool NodeStore::draw(const NodeKey& node, std::span<const BuiltPiece> pieces) {
 }
 
 std::optional<double> NodeStore::height(const Position& position, int level) const {
-  if (!position.valid()) return std::nullopt;
   const NodeKey key = nodeAt(position, level);
   const NodeHeights held = heights(key);
   if (!held) return std::nullopt;

@@ -73,8 +73,8 @@ class NodeStore {
   /// where they are not exactly piecesToDraw(node): the drawn set has changed since they were chosen.
   bool draw(const NodeKey& node, std::span<const BuiltPiece> pieces);
 
-  /// [m] The triangles of the node of this level at a position; empty where it is not held, or
-  /// the position is not valid().
+  /// [m] The triangles of the node of this level at a valid position; empty where it is not
+  /// held.
   std::optional<double> height(const Position& position, int level) const;
 
   /// Grows with every change of the drawn set.
