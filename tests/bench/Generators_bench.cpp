@@ -121,6 +121,10 @@ int runAll(int argc, char** argv) {
   benchmark::RunSpecifiedBenchmarks(&reporter);
   reporter.printRatio("faults/plain-scalar", "faults/fast", 40.0);
   reporter.printRatio("faults/plain-avx2", "faults/fast", 15.0);
+  for (const char* const side : {"/65", "/129", "/257"}) {
+    reporter.printRatio("circles/plain", "circles/fast", 0.0, side);
+    reporter.printRatio("circles/plain-avx2", "circles/fast", 0.0, side);
+  }
   reporter.printRatio("band/plain", "band/fast", 0.0);
   reporter.printRatio("matrix3/plain", "matrix3/fast", 0.0);
   reporter.printRatio("matrix5/plain", "matrix5/fast", 0.0);

@@ -30,13 +30,19 @@ class MedianReporter : public benchmark::ConsoleReporter {
   void ReportRuns(const std::vector<Run>& runs) override {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
-      if (run.aggregate_name == "median") medians_[run.run_name.function_name] = run.GetAdjustedCPUTime();
+      if (run.aggregate_name != "median") continue;
+      const std::string& arguments = run.run_name.args;
+      medians_[run.run_name.function_name + (arguments.empty() ? "" : "/" + arguments)] =
+          run.GetAdjustedCPUTime();
     }
   }
 
-  void printRatio(const char* slow, const char* fast, double wanted) const {
-    if (!medians_.contains(slow) || !medians_.contains(fast)) return;
-    std::printf("%s / %s = %.1f", slow, fast, medians_.at(slow) / medians_.at(fast));
+  /// `arguments`: of both, as "/257".
+  void printRatio(const char* slow, const char* fast, double wanted, const char* arguments = "") const {
+    const auto rival = medians_.find(std::string(slow) + arguments);
+    const auto own = medians_.find(std::string(fast) + arguments);
+    if (rival == medians_.end() || own == medians_.end()) return;
+    std::printf("%s / %s%s = %.1f", slow, fast, arguments, rival->second / own->second);
     if (wanted > 0.0) std::printf(" (wanted: at least %.0f)", wanted);
     std::printf("\n");
   }

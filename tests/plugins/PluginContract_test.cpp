@@ -445,7 +445,7 @@ TEST(Plugins, TakeMatricesOfAnyOddSideAndRefuseOthersWithASentence) {
 }
 
 TEST(Plugins, AreAllFoundAndNoneIsRefused) {
-  for (const char* id : {"band", "constant", "fault", "matrix", "slope", "spectral", "steps"})
+  for (const char* id : {"band", "circles", "constant", "fault", "matrix", "slope", "spectral", "steps"})
     EXPECT_NE(registry().find(id), nullptr) << id;
   for (const RefusedModule& module : registry().refused())
     ADD_FAILURE() << module.file << ": " << module.reason;
