@@ -171,6 +171,17 @@ void realFold(Cell* cells, int size) {
   }
 }
 
+/// The last stage of a real transform. Inlined, so that a constant width needs no loop.
+TEREN_ALWAYS_INLINE void storeLanes(const Cell& cell, int width, float scale, float* south, float* north) {
+  float sums[kLanes], differences[kLanes];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    sums[lane] = scale * (cell.re[lane] + cell.im[lane]);
+    differences[lane] = scale * (cell.re[lane] - cell.im[lane]);
+  }
+  std::copy_n(sums, width, south);
+  std::copy_n(differences, width, north);
+}
+
 /// to[column].lane(row) = rows[row][column]; four at a time.
 void transposed(const float* const rows[kLanes], float* to, std::ptrdiff_t stride) {
   for (int column = 0; column < kLanes; column += 4) {
@@ -200,15 +211,17 @@ int leastSide(int largest) {
 InverseTransform::InverseTransform(const HarmonicSource& source, int side, float scale, HeightView out)
     : source_(source),
       side_(side),
-      scale_(scale),
+      scale_(0.5f * scale),
       out_(out),
       largest_(source.largest()),
       start_(std::max(side, leastSide(largest_))),
       rows_((largest_ + kLanes) / kLanes * kLanes),
+      width_(std::max(start_, kLanes / 2)),
       turns_(static_cast<std::size_t>(start_ / 2)),
       order_(static_cast<std::size_t>(side)),
       row_(static_cast<std::size_t>(2 * largest_ + 1)),
-      cells_(std::make_unique_for_overwrite<Cell[]>(static_cast<std::size_t>(start_))),
+      waves_(static_cast<std::size_t>(kLanes * width_)),
+      cells_(std::make_unique_for_overwrite<Cell[]>(static_cast<std::size_t>(width_))),
       between_(std::make_unique_for_overwrite<Cell[]>(static_cast<std::size_t>(rows_) *
                                                       ((side + kLanes - 1) / kLanes))) {
   assert(std::has_single_bit(static_cast<unsigned>(side)) && 2 <= side && side <= 4096 && largest_ >= 0);
@@ -234,6 +247,9 @@ bool InverseTransform::unit() {
     case Phase::rows:
       addRow();
       return false;
+    case Phase::gathering:
+      gather();
+      return false;
     case Phase::columnStages:
       columnStage();
       return false;
@@ -252,22 +268,36 @@ bool InverseTransform::unit() {
   return true;
 }
 
-/// Puts the harmonics of one l into its lane of the cells, k by k.
+/// Puts the harmonics of one l where its lane will be, those with k < 0 at the end. After the last of the
+/// block, lanes take the place of rows.
 void InverseTransform::addRow() {
-  const int lane = next_;
-  if (lane == 0) std::fill_n(cells_.get(), start_, Cell{});
-  const int l = block_ * kLanes + lane;
-  source_.row(l, row_.data());
-  for (int k = -largest_; k <= largest_; ++k) {
-    Cell& cell = cells_[k < 0 ? start_ + k : k];
-    // Real transforms count each harmonic twice, but for the one at 0.
-    const Harmonic harmonic = row_[largest_ + k];
-    const float weight = l == 0 ? 1.0f : 0.5f;
-    cell.re[lane] = weight * harmonic.re;
-    cell.im[lane] = weight * harmonic.im;
+  Harmonic* const wave = waves_.data() + next_ * width_;
+  const int l = block_ * kLanes + next_;
+  if (l <= largest_) {
+    source_.row(l, row_.data());
+    std::copy_n(row_.data() + largest_, largest_ + 1, wave);
+    std::copy_n(row_.data(), largest_, wave + start_ - largest_);
+  } else {
+    std::fill_n(wave, width_, Harmonic{});
   }
-  ++next_;
-  if (next_ < kLanes && l < largest_) return;
+  if (++next_ < kLanes) return;
+  next_ = 0;
+  phase_ = Phase::gathering;
+}
+
+void InverseTransform::gather() {
+  constexpr int kGroup = kLanes / 2;  // as many harmonics as fill sixteen floats
+  constexpr int kGroupsPerUnit = 32;
+  for (const int end = std::min(width_, next_ + kGroupsPerUnit * kGroup); next_ < end; next_ += kGroup) {
+    if (next_ > largest_ && next_ + kGroup <= start_ - largest_) {
+      std::fill_n(cells_.get() + next_, kGroup, Cell{});
+      continue;
+    }
+    const float* rows[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) rows[lane] = &waves_[lane * width_ + next_].re;
+    transposed(rows, cells_[next_].re, kLanes);
+  }
+  if (next_ < width_) return;
   next_ = 0;
   size_ = start_;
   phase_ = Phase::columnStages;
@@ -310,6 +340,9 @@ void InverseTransform::load() {
   const Cell* const from = between_.get() + static_cast<std::ptrdiff_t>(block_) * rows_;
   std::copy_n(from, largest_ + 1, cells_.get());
   std::fill(cells_.get() + largest_ + 1, cells_.get() + start_ / 2, Cell{});
+  // Of the harmonics without waves from south to north only the real part counts, and, as real transforms
+  // count all others twice, it counts twice too; the last multiplication halves all.
+  for (float& re : cells_[0].re) re += re;
   std::fill_n(cells_[0].im, kLanes, 0.0f);
   size_ = start_;
   phase_ = size_ > 2 ? Phase::rowStages : Phase::store;
@@ -331,12 +364,12 @@ bool InverseTransform::store() {
   const int width = std::min(kLanes, side_ - first);
   const bool closed = out_.columns() > side_;
   for (int n = 0; n < side_ / 2; ++n) {
-    const Cell& cell = cells_[n];
     float* const south = out_.row(order_[2 * n]) + first;
     float* const north = out_.row(order_[2 * n + 1]) + first;
-    for (int lane = 0; lane < width; ++lane) {
-      south[lane] = scale_ * (cell.re[lane] + cell.im[lane]);
-      north[lane] = scale_ * (cell.re[lane] - cell.im[lane]);
+    if (width == kLanes) {
+      storeLanes(cells_[n], kLanes, scale_, south, north);
+    } else {
+      storeLanes(cells_[n], width, scale_, south, north);
     }
     if (closed && first == 0) {
       south[side_] = south[0];

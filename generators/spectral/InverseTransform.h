@@ -45,7 +45,7 @@ inline constexpr double kTransformError = 5e-6;
 /// between the two passes the harmonics are transposed in blocks, so no power-of-two stride is ever walked.
 /// All in float, bound by loads and stores of the first-level cache.
 ///
-/// Allocates when made, never in `step`: 128 bytes * (side + (K + 16) * side / 16 + 2 K). A unit of work
+/// Allocates when made, never in `step`: about 128 bytes * (2 side + (K + 16) * side / 16). A unit of work
 /// takes 1 to 10 us up to a side of 1024.
 class InverseTransform final : public SlicedTask {
  public:
@@ -66,10 +66,11 @@ class InverseTransform final : public SlicedTask {
   };
 
  private:
-  enum class Phase { rows, columnStages, transposition, load, rowStages, store };
+  enum class Phase { rows, gathering, columnStages, transposition, load, rowStages, store };
 
   bool unit();
   void addRow();
+  void gather();
   void columnStage();
   void transpose();
   void load();
@@ -78,14 +79,16 @@ class InverseTransform final : public SlicedTask {
 
   const HarmonicSource& source_;
   int side_;
-  float scale_;
+  float scale_;  // half of what was asked for
   HeightView out_;
   int largest_;  // K
   int start_;    // size of the first stage: side_, or the least that holds all harmonics if that is more
   int rows_;     // harmonics along y, K + 1, rounded up to whole cells
+  int width_;    // start_, but at least a group of cells that are gathered at once
   std::vector<Harmonic> turns_;      // e^(2 pi i n / start_), n < start_ / 2
   std::vector<int> order_;           // where a sample lies after all stages: its bits, reversed
   std::vector<Harmonic> row_;        // what the source wrote
+  std::vector<Harmonic> waves_;      // sixteen l, width_ of k each
   std::unique_ptr<Cell[]> cells_;    // one block, in work
   std::unique_ptr<Cell[]> between_;  // [block of sixteen x][l], one lane a column
 

@@ -47,6 +47,9 @@ class MedianReporter : public benchmark::ConsoleReporter {
     std::printf("\n");
   }
 
+  /// In the unit of the benchmark; 0 where it did not run.
+  double median(const std::string& name) const { return medians_.contains(name) ? medians_.at(name) : 0.0; }
+
  private:
   std::map<std::string, double> medians_;
 };
