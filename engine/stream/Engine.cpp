@@ -48,9 +48,10 @@ Result<void> check(const EngineOptions& options, const World& world) {
   return {};
 }
 
-/// Budgets may be as long as a duration can be.
+/// Budgets may be as long as a duration can be; less than nothing is nothing.
 Slice::Clock::time_point deadlineAfter(Slice::Clock::time_point start, std::chrono::nanoseconds budget) {
   constexpr Slice::Clock::time_point kNever = Slice::Clock::time_point::max();
+  if (budget <= std::chrono::nanoseconds{0}) return start;
   return budget < kNever - start ? start + budget : kNever;
 }
 
