@@ -125,6 +125,10 @@ int runAll(int argc, char** argv) {
     reporter.printRatio("circles/plain", "circles/fast", 0.0, side);
     reporter.printRatio("circles/plain-avx2", "circles/fast", 0.0, side);
   }
+  for (const char* const side : {"/65", "/129", "/257", "/1025"}) {
+    reporter.printRatio("thermal/plain-o2", "thermal/fast", 0.0, side);
+    reporter.printRatio("thermal/plain-avx2", "thermal/fast", 0.0, side);
+  }
   reporter.printRatio("band/plain", "band/fast", 0.0);
   reporter.printRatio("matrix3/plain", "matrix3/fast", 0.0);
   reporter.printRatio("matrix5/plain", "matrix5/fast", 0.0);

@@ -90,6 +90,10 @@ std::vector<Entries> typicalSettings(const PluginInfo& info) {
     settings.push_back({{"matrix", std::string("0 1 2 1 0; 1 4 6 4 1; 2 6 9 6 2; 1 4 6 4 1; 0 1 2 1 0")}});
     settings.push_back({{"matrix", std::string("0 0 1; 0 2 0; 0.25 0 0")}, {"passes", std::int64_t{2}}});
   }
+  if (info.id == "thermal") {
+    settings.push_back({{"talus", 5.0}, {"passes", std::int64_t{5}}});
+    settings.push_back({{"talus", 0.0}, {"passes", std::int64_t{3}}});
+  }
   return settings;
 }
 
@@ -445,7 +449,8 @@ TEST(Plugins, TakeMatricesOfAnyOddSideAndRefuseOthersWithASentence) {
 }
 
 TEST(Plugins, AreAllFoundAndNoneIsRefused) {
-  for (const char* id : {"band", "circles", "constant", "fault", "matrix", "slope", "spectral", "steps"})
+  for (const char* id :
+       {"band", "circles", "constant", "fault", "matrix", "slope", "spectral", "steps", "thermal"})
     EXPECT_NE(registry().find(id), nullptr) << id;
   for (const RefusedModule& module : registry().refused())
     ADD_FAILURE() << module.file << ": " << module.reason;
