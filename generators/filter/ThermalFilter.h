@@ -33,9 +33,10 @@ inline float thermalHeight(float height, float west, float east, float south, fl
 /// allows an eighth of the excess: of the difference of their heights beyond the tangent times their distance
 /// (spacing, or sqrt 2 times that on a diagonal). All samples move at once, from the heights before the pass.
 /// So a pass makes every height a mean of the neighbourhood's with weights >= 0, and what one gains another
-/// loses. Nothing leaves a map: at the rims there are fewer neighbours. (Musgrave, Kolb and Mace 1989,
-/// section 5, who move to one neighbour after the other; the excess in equal parts makes the order of samples
-/// not matter.) More passes bring the ground nearer to rest; the cost grows with passes * samples.
+/// loses. Nothing leaves a map: at the rims there are fewer neighbours. (After
+/// Musgrave, Kolb and Mace 1989, who move material to one neighbour after the other; here the order of
+/// samples does not matter.) More passes bring the ground nearer to rest; the cost grows with passes *
+/// samples.
 ///
 /// Sums are made in float. Immutable; any number of tasks may run at once, on any threads.
 class ThermalFilter {
@@ -58,7 +59,8 @@ class ThermalFilter {
 
   /// Filter::range. Bounds stay, but for rounding, for every height becomes a mean of heights. The mean of a
   /// map stays; the mean at every sample stays where heights so much above it and so much below are equally
-  /// likely. Summed over a map, squared differences from any height only shrink, so the deviation does.
+  /// likely. Summed over a map, squared differences from any height only shrink, so the deviation does on
+  /// average over the map.
   HeightRange range(const HeightRange& before) const noexcept;
 
   /// Filter::residual, but against what is drawn: the filter run on the level's coarse map. What it becomes
