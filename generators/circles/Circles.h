@@ -14,13 +14,12 @@ namespace teren {
 /// rounding, about 1000 times), made exact: every disc is independent, its radius uniform between smallest *
 /// radius and radius, its height proportional to its radius, hill or hollow by a fair coin. Centres are
 /// uniform over the map's square widened by the largest radius on every side, so that every place of the map
-/// is covered alike; about a quarter to a half of the discs never touch the map and cost nothing but being
-/// drawn.
+/// is covered alike; discs that do not touch the map cost nothing but being drawn.
 ///
 /// So over all seeds the mean is 0 and the variance the same at every point, exactly: discs * unit^2 * K *
 /// E[pi r^2 (r / radius)^2] / (2 + 2 radius)^2, r in pitches, K = 3/8 - 2/pi^2 the mean square of the profile
-/// over a disc. `unit`, the height of the largest disc, follows from the deviation. Heights are sums of few
-/// discs only where discs are few and small: then most of a map is flat and some of it high.
+/// over a disc; `unit`, the height of the largest disc, follows from the deviation. Where discs are few and
+/// small, most of a map is flat and the rest the higher for it.
 ///
 /// A sample's sum is made in float, in the order in which discs are drawn. Work: proportional to the area
 /// that all discs cover, 32 sums a sample at the defaults, where the plain way (CirclesReference.h) asks

@@ -1,4 +1,5 @@
-// Circles and thermal erosion beside their plain versions, at four sides; linked into bench-generators.
+// Circles and thermal erosion beside their plain versions, and terraces, at four sides; linked into
+// bench-generators.
 #include <benchmark/benchmark.h>
 
 #include "teren/HeightMap.h"
@@ -8,6 +9,7 @@
 #include "generators/fault/FaultFormation.h"
 #include "generators/filter/ThermalFilter.h"
 #include "generators/filter/ThermalReference.h"
+#include "generators/steps/Staircase.h"
 
 namespace teren {
 
@@ -42,6 +44,20 @@ void circles(benchmark::State& state) {
 BENCHMARK(circles<circlesFast>)->Name("circles/fast")->Arg(65)->Arg(129)->Arg(257)->Arg(1025);
 BENCHMARK(circles<circlesReference>)->Name("circles/plain")->Arg(65)->Arg(129)->Arg(257);
 BENCHMARK(circles<circlesReferenceAvx2, true>)->Name("circles/plain-avx2")->Arg(65)->Arg(129)->Arg(257);
+
+void steps(benchmark::State& state) {
+  const auto samples = static_cast<int>(state.range(0));
+  HeightMap map(samples, samples);
+  MapRequest request{.samples = samples};
+  for (auto _ : state) {
+    ++request.seed;
+    Staircase(2.0, 3, 12).begin(request, map.view())->step(Slice::unlimited());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * samples * samples);
+}
+
+BENCHMARK(steps)->Name("steps/fast")->Arg(65)->Arg(129)->Arg(257)->Arg(1025);
 
 void thermalFast(const ThermalFilter& filter, double spacing, HeightView inOut) {
   filter.begin(spacing, inOut)->step(Slice::unlimited());
