@@ -13,23 +13,12 @@ namespace teren {
 namespace {
 
 /// The heights of a map's corners, in the order of MidpointSettings::corners.
-std::array<float, 4> cornersOf(const MidpointPlan& plan, bool published, MidpointSource source,
-                               std::uint64_t seed) noexcept {
-  const Gaussian& gaussian = Gaussian::table();
+std::array<float, 4> cornersOf(const MidpointPlan& plan, MidpointSource source, std::uint64_t seed) noexcept {
   const std::uint64_t key = midpointRowKey(seed, -1, 0);
-  std::array<double, 4> g{};
-  for (int n = 0; n < 4; ++n) {
-    g[static_cast<std::size_t>(n)] = midpointNumber(source, gaussian, midpointWord(key, n));
-  }
-  const auto& move = plan.cornerMoves;
   std::array<float, 4> corners{};
   for (int n = 0; n < 4; ++n) {
-    const double east = n % 2 == 0 ? -1.0 : 1.0, north = n / 2 == 0 ? -1.0 : 1.0;
-    const auto corner = static_cast<std::size_t>(n);
-    corners[corner] =
-        static_cast<float>(published ? move[0] * g[corner]
-                                     : move[0] * g[0] + move[1] * (east * g[1]) + move[2] * (north * g[2]) +
-                                           move[3] * (east * north * g[3]));
+    const double number = midpointNumber(source, Gaussian::table(), midpointWord(key, n));
+    corners[static_cast<std::size_t>(n)] = static_cast<float>(plan.cornerMove * number);
   }
   return corners;
 }
@@ -59,7 +48,7 @@ class MapTask final : public SlicedTask {
         seed_(seed),
         out_(out),
         stageCount_(std::countr_zero(static_cast<unsigned>(out.columns() - 1))) {
-    const std::array<float, 4> corners = cornersOf(plan, settings.published, settings.centre, seed);
+    const std::array<float, 4> corners = cornersOf(plan, settings.centre, seed);
     const int last = out.columns() - 1;
     for (int n = 0; n < 4; ++n) out_(n % 2 * last, n / 2 * last) = corners[static_cast<std::size_t>(n)];
   }
@@ -190,7 +179,7 @@ class CentreTask final : public SlicedTask {
       : settings_(settings), plan_(plan), seed_(seed), out_(out) {}
 
   bool step(const Slice&) override {
-    const auto corners = cornersOf(plan_, settings_.published, settings_.centre, seed_);
+    const auto corners = cornersOf(plan_, settings_.centre, seed_);
     const auto [southWest, southEast, northWest, northEast] = plan_.stages[0].centre;
     const double number =
         midpointNumber(settings_.centre, Gaussian::table(), midpointWord(midpointRowKey(seed_, 0, 1), 1));

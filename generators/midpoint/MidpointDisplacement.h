@@ -25,9 +25,9 @@ namespace teren {
 /// covariance with its parents (as in conditionalised random midpoint displacement: Norros, Mannersalo, Wang
 /// 1999, for lines); all other covariances are carried exactly from stage to stage (LatticeCovariance.h).
 /// The mean squared difference of two heights at distance r then follows r^(2H), at all powers of two, along
-/// axes and diagonals, and the deviation is the same at every point within 2 %. Opposite corners of a map are
-/// independent. Above hurst = 0.9 displacements would need negative variances: they are left out, the
-/// deviation is kept, and the ground is a little rougher than asked.
+/// axes and diagonals, and the deviation is the same at every point within 2 %. Points half a map's side
+/// apart are independent. Above hurst = 0.9 displacements would need negative variances: they are left out,
+/// the deviation is kept, and the ground is a little rougher than asked.
 ///
 /// Corner weights all equal are the plain mean; other weights bend the land along a diagonal and keep the
 /// deviation. Corners all 0: centres are random alone. In the corrected rule every source is scaled to

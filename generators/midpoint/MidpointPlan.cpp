@@ -58,7 +58,9 @@ class Planner {
     double all = 0.0;
     for (double weight : settings.corners) all += weight;
     for (std::size_t n = 0; n < 4; ++n) weights_[n] = all > 0.0 ? settings.corners[n] / all : 0.0;
-    startCorners();
+    const double corner = midpointVariance(settings.centre);
+    plan_.cornerMove = settings.published ? 1.0 : 1.0 / std::sqrt(corner);
+    window_.at(0, 0) = settings.published ? corner : 1.0;
     for (int stage = 0; stage < stages; ++stage) {
       plan_.stages.push_back(settings.published ? publishedStage(stage) : correctedStage(stage));
     }
@@ -68,7 +70,7 @@ class Planner {
   MidpointPlan scaled() const {
     MidpointPlan plan = plan_;
     const double factor = settings_.deviation / std::sqrt(meanVariance());
-    for (double& move : plan.cornerMoves) move *= factor;
+    plan.cornerMove *= factor;
     for (MidpointStage& stage : plan.stages) {
       stage.centreMove *= factor;
       for (double& move : stage.moves) move *= factor;
@@ -82,25 +84,10 @@ class Planner {
 
  private:
   /// Covariance of points at the distance side * 2^(log2Square / 2), the side being the map's; deviation 1.
-  /// Points at opposite corners of the map are independent, and so are those even further apart, which only
-  /// an endless lattice has.
+  /// Points half a side or more apart are independent: a map that had a level of its own would show as a
+  /// square in the landscape, whose maps are blended over that distance.
   double wanted(double log2Square, double aim = 1.0) const noexcept {
-    return std::max(0.0, 1.0 - aim * powerOfTwo(settings_.hurst * (log2Square - 1.0)));
-  }
-
-  void startCorners() {
-    const double largest = settings_.published ? 1.0 : 1.0 / std::sqrt(midpointVariance(settings_.centre));
-    if (settings_.published) {
-      plan_.cornerMoves = {largest, 0.0, 0.0, 0.0};
-      window_.at(0, 0) = midpointVariance(settings_.centre);
-      return;
-    }
-    const double side = wanted(0.0);
-    // The square roots of the eigenvalues of the four corners' covariances; those of opposite corners are 0.
-    plan_.cornerMoves = {0.5 * largest * std::sqrt(1.0 + 2.0 * side), 0.5 * largest, 0.5 * largest,
-                         0.5 * largest * std::sqrt(std::max(0.0, 1.0 - 2.0 * side))};
-    window_.at(0, 0) = 1.0;
-    for (const int sign : {-1, 1}) window_.at(sign, 0) = window_.at(0, sign) = side;
+    return std::max(0.0, 1.0 - aim * powerOfTwo(settings_.hurst * (log2Square + 2.0)));
   }
 
   /// Over all samples. In the corrected rule the variance is the same everywhere. In the published one a map
@@ -160,12 +147,26 @@ class Planner {
     const Drawn edge = drawn(window_.varianceOfEdge(stage, centre.variance), edgeAim);
     stage.ends = stage.firstCentre = stage.secondCentre = 0.25 * edge.factor;
 
-    const double ofThree = (3.0 + 2.0 * window_.alongAxes() + 4.0 * window_.centreWithCorners(stage)) / 9.0;
-    const Drawn rim = drawn(ofThree, edgeAim);
-    stage.rimEnds = stage.rimCentre = rim.factor / 3.0;
-    setMoves(stage, settings_, std::sqrt(edge.variance), std::sqrt(rim.variance));
+    const double rimVariance = setRim(stage, edgeAim);
+    setMoves(stage, settings_, std::sqrt(edge.variance), std::sqrt(rimVariance));
     finish(stage, centre.variance, edge.variance);
     return stage;
+  }
+
+  /// An edge point on the rim: the covariance `aim` with both ends and, as far as a variance is left for its
+  /// displacement, with the centre too, as inside. Returns that variance.
+  double setRim(MidpointStage& stage, double aim) const noexcept {
+    const double ends = window_.alongAxes(), withCentre = window_.centreWithCorners(stage);
+    const double determinant = 1.0 + ends - 2.0 * withCentre * withCentre;
+    if (determinant > 1e-6) {
+      stage.rimEnds = aim * (1.0 - withCentre) / determinant;
+      stage.rimCentre = aim - 2.0 * stage.rimEnds * withCentre;
+      const double variance = 1.0 - aim * (2.0 * stage.rimEnds + stage.rimCentre);
+      if (variance >= 0.0 && stage.rimCentre >= 0.0) return variance;
+    }
+    const Drawn rim = drawn((3.0 + 2.0 * ends + 4.0 * withCentre) / 9.0, aim);
+    stage.rimEnds = stage.rimCentre = rim.factor / 3.0;
+    return rim.variance;
   }
 
   void finish(const MidpointStage& stage, double centreVariance, double edgeVariance) {
@@ -179,8 +180,7 @@ class Planner {
 
   /// What sources at their largest give; a thousandth more than any rounding.
   double boundOf(const MidpointPlan& plan) const {
-    double bound = 0.0;
-    for (double move : plan.cornerMoves) bound += move * largestOf(settings_.centre);
+    double bound = plan.cornerMove * largestOf(settings_.centre);
     const MidpointSource sources[] = {settings_.south, settings_.west, settings_.north, settings_.east};
     for (const MidpointStage& stage : plan.stages) {
       double centre = stage.centreMove * largestOf(settings_.centre);

@@ -47,8 +47,7 @@ struct MidpointStage {
 
 /// The stages of a map of 2^stages.size() intervals a side.
 struct MidpointPlan {
-  /// Corners are sums of the four numbers g: corner = (g0 +- g1 +- g2 +- g3) with these factors [m].
-  std::array<double, 4> cornerMoves{};
+  double cornerMove = 0.0;  ///< of each corner, times a number of the centres' source
   std::vector<MidpointStage> stages;
   double bound = 0.0;                 ///< [m] no height is further from 0
   std::vector<double> squaredErrors;  ///< [m^2] by stage: new points minus triangles through the old ones

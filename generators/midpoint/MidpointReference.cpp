@@ -36,12 +36,7 @@ class PlainMap {
 
   double corner(int x, int y) const {
     const int which = (x > 0 ? 1 : 0) + (y > 0 ? 2 : 0);
-    const auto g = [&](int n) { return number(settings_.centre, -1, n, 0); };
-    const auto& move = plan_.cornerMoves;
-    if (settings_.published) return move[0] * g(which);
-    const double east = x > 0 ? 1.0 : -1.0, north = y > 0 ? 1.0 : -1.0;
-    return move[0] * g(0) + move[1] * (east * g(1)) + move[2] * (north * g(2)) +
-           move[3] * (east * north * g(3));
+    return plan_.cornerMove * number(settings_.centre, -1, which, 0);
   }
 
   /// The point's place tells its stage: the largest power of two that divides it is the distance to its

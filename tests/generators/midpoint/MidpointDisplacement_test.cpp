@@ -274,9 +274,7 @@ TEST(MidpointDisplacement, NeverLeavesItsRangeHoweverUnlikely) {
     EXPECT_EQ(range.min, -range.max);
     // All displacements at their largest, all the same way, by the plan alone.
     const MidpointPlan& plan = displacement.plan(8);
-    double largest = 0.0, corner = 0.0;
-    for (double move : plan.cornerMoves) corner += move;
-    largest = corner * Gaussian::kCut;
+    double largest = plan.cornerMove * Gaussian::kCut;
     if (settings.centre != MidpointSource::randG) continue;
     for (const MidpointStage& stage : plan.stages) {
       double weights = 0.0;
