@@ -1,6 +1,6 @@
 // Fault formation against its plain version, compiled once for the scalar unit and once for AVX2, and the
-// band and matrix filters against their own. Repetitions are interleaved at random; the ratios of the medians
-// come last.
+// band and matrix filters and midpoint displacement against their own. Repetitions are interleaved at random;
+// the ratios of the medians come last.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -14,6 +14,8 @@
 #include "generators/filter/BandReference.h"
 #include "generators/filter/MatrixFilter.h"
 #include "generators/filter/MatrixReference.h"
+#include "generators/midpoint/MidpointDisplacement.h"
+#include "generators/midpoint/MidpointReference.h"
 #include "tests/bench/MedianReporter.h"
 #include "tests/support/SlicedWork.h"
 
@@ -80,6 +82,25 @@ void matrix(benchmark::State& state, int side, bool fast) {
   }
 }
 
+/// Midpoint displacement of maps of so many samples a side.
+void midpoint(benchmark::State& state, int samples, bool fast) {
+  static const MidpointDisplacement displacement{MidpointSettings{}};
+  HeightMap map(samples, samples);
+  MapRequest request{.samples = samples};
+  for (auto _ : state) {
+    ++request.seed;
+    if (fast) {
+      displacement.begin(request, map.view())->step(Slice::unlimited());
+    } else {
+      midpointReference(displacement, request, map.view());
+    }
+    benchmark::ClobberMemory();
+  }
+  const double perSample = 1e-9 * samples * samples;
+  state.counters["ns/sample"] = benchmark::Counter(
+      perSample, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 /// Ratios mean something only between programs that do the same.
 bool allAgree() {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
@@ -117,6 +138,11 @@ int runAll(int argc, char** argv) {
     benchmark::RegisterBenchmark((name + "/fast").c_str(), matrix, side, true)->Unit(microseconds);
     benchmark::RegisterBenchmark((name + "/plain").c_str(), matrix, side, false)->Unit(microseconds);
   }
+  for (const int side : {65, 129, 257, 1025}) {
+    const std::string name = "midpoint" + std::to_string(side);
+    benchmark::RegisterBenchmark((name + "/fast").c_str(), midpoint, side, true)->Unit(microseconds);
+    benchmark::RegisterBenchmark((name + "/plain").c_str(), midpoint, side, false)->Unit(microseconds);
+  }
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   reporter.printRatio("faults/plain-scalar", "faults/fast", 40.0);
@@ -133,6 +159,10 @@ int runAll(int argc, char** argv) {
   reporter.printRatio("matrix3/plain", "matrix3/fast", 0.0);
   reporter.printRatio("matrix5/plain", "matrix5/fast", 0.0);
   reporter.printRatio("matrix31/plain", "matrix31/fast", 0.0);
+  reporter.printRatio("midpoint65/plain", "midpoint65/fast", 0.0);
+  reporter.printRatio("midpoint129/plain", "midpoint129/fast", 0.0);
+  reporter.printRatio("midpoint257/plain", "midpoint257/fast", 5.0);
+  reporter.printRatio("midpoint1025/plain", "midpoint1025/fast", 0.0);
   return 0;
 }
 

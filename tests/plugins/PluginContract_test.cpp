@@ -94,6 +94,10 @@ std::vector<Entries> typicalSettings(const PluginInfo& info) {
     settings.push_back({{"talus", 5.0}, {"passes", std::int64_t{5}}});
     settings.push_back({{"talus", 0.0}, {"passes", std::int64_t{3}}});
   }
+  if (info.id == "midpoint") {
+    for (double hurst : {0.2, 0.5}) settings.push_back({{"hurst", hurst}});
+    settings.push_back({{"m11", 0.0}, {"m13", 0.5}, {"m22", std::string("randN")}});
+  }
   return settings;
 }
 
@@ -449,8 +453,8 @@ TEST(Plugins, TakeMatricesOfAnyOddSideAndRefuseOthersWithASentence) {
 }
 
 TEST(Plugins, AreAllFoundAndNoneIsRefused) {
-  for (const char* id :
-       {"band", "circles", "constant", "fault", "matrix", "slope", "spectral", "steps", "thermal"})
+  for (const char* id : {"band", "circles", "constant", "fault", "matrix", "midpoint", "slope", "spectral",
+                         "steps", "thermal"})
     EXPECT_NE(registry().find(id), nullptr) << id;
   for (const RefusedModule& module : registry().refused())
     ADD_FAILURE() << module.file << ": " << module.reason;

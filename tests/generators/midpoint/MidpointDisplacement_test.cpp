@@ -253,6 +253,24 @@ TEST(MidpointDisplacement, HasTheDeviationAskedForOverAThousandSeeds) {
   }
 }
 
+TEST(MidpointDisplacement, HasMeanZeroAtEveryPointWhateverTheSources) {
+  constexpr int seeds = 20000, samples = 9;
+  for (const bool published : {false, true}) {
+    const MidpointDisplacement displacement(lopsided(published));
+    std::vector<double> sums(samples * samples), squares(samples * samples);
+    for (int n = 0; n < seeds; ++n) {
+      const HeightMap map = made(displacement, requestOf(mixBits(n), samples));
+      for (std::size_t sample = 0; sample < sums.size(); ++sample) {
+        sums[sample] += map.samples()[sample];
+        squares[sample] += static_cast<double>(map.samples()[sample]) * map.samples()[sample];
+      }
+    }
+    for (std::size_t sample = 0; sample < sums.size(); ++sample) {
+      EXPECT_LT(std::fabs(sums[sample]), 5.0 * std::sqrt(squares[sample])) << "sample " << sample;
+    }
+  }
+}
+
 TEST(MidpointDisplacement, HasTheSameDeviationAtEveryPoint) {
   constexpr int seeds = 20000, samples = 17;
   for (double hurst : {0.2, 0.5, 0.8, 1.0}) {
