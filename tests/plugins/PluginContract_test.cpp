@@ -96,7 +96,7 @@ std::vector<Entries> typicalSettings(const PluginInfo& info) {
   }
   if (info.id == "midpoint") {
     for (double hurst : {0.2, 0.5}) settings.push_back({{"hurst", hurst}});
-    settings.push_back({{"m11", 0.0}, {"m13", 0.5}, {"m22", std::string("randN")}});
+    settings.push_back({{"m11", 0.75}, {"m22", std::string("randN")}, {"m23", std::string("randR")}});
   }
   return settings;
 }
