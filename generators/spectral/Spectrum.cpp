@@ -30,6 +30,7 @@ SpectralLaw::SpectralLaw(SpectralRule rule, double hurst, int harmonics)
       harmonics_(harmonics),
       amplitudes_(static_cast<std::size_t>(harmonics + 1) * static_cast<std::size_t>(harmonics + 1)) {
   assert(0.0 <= hurst && hurst <= 1.0 && 1 <= harmonics && harmonics <= 128);
+  Gaussian::table();  // now, not in somebody's slice
   for (int l = 0; l <= harmonics; ++l) {
     for (int k = 0; k <= harmonics; ++k) {
       double amplitude = 0.0;
