@@ -43,7 +43,8 @@ inline constexpr double kTransformError = 5e-6;
 /// equals every second sample of this one bit for bit, whatever K. Stages in which most harmonics are zero
 /// touch only the others. Sixteen columns are worked on side by side, in blocks that stay in the cache;
 /// between the two passes the harmonics are transposed in blocks, so no power-of-two stride is ever walked.
-/// All in float, bound by loads and stores of the first-level cache.
+/// All in float, bound by loads and stores of the first-level cache; in registers of 16, 32 or 64 bytes, by
+/// what the processor has, with the same bits.
 ///
 /// Allocates when made, never in `step`: about 128 bytes * (2 side + (K + 16) * side / 16). A unit of work
 /// takes 1 to 10 us up to a side of 1024.

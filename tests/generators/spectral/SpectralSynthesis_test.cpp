@@ -1,7 +1,9 @@
 #include "generators/spectral/SpectralSynthesis.h"
 
+#include <bit>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -308,6 +310,26 @@ TEST(SpectralSynthesis, ResidualIsWithinAFactorOfWhatIsMeasured) {
         EXPECT_NEAR(synthesis.residual(40, samples) / std::sqrt(squares[0]), 1.0, 0.3) << "the centre alone";
       }
     }
+  }
+}
+
+// Law 1: any processor, any width of registers.
+TEST(SpectralSynthesis, HasTheBitsItHadWhenWritten) {
+  const std::tuple<SpectralRule, int, std::uint64_t> known[] = {
+      {SpectralRule::isotropic, 65, 0xd890e943f222786a},
+      {SpectralRule::isotropic, 257, 0x86c4110a67813900},
+      {SpectralRule::published, 65, 0x35719477403bbc27},
+      {SpectralRule::published, 257, 0x3fcbd46614cc1cb8},
+  };
+  for (const auto& [rule, samples, expected] : known) {
+    const SpectralSynthesis synthesis(rule, 0.7, 60.0, 32, {.east = 0.3, .north = 0.123});
+    const HeightMap map = made(synthesis, requestOf(42, samples));
+    Fnv1a hash;
+    for (float height : map.samples()) {
+      const auto bits = std::bit_cast<std::uint32_t>(height);
+      for (int shift = 0; shift < 32; shift += 8) hash.addByte(static_cast<std::uint8_t>(bits >> shift));
+    }
+    EXPECT_EQ(hash.value(), expected) << nameOf(rule) << ", " << samples << " samples";
   }
 }
 
