@@ -27,7 +27,7 @@ struct Stages {
 // library: so the stages, which call nothing, are compiled in namespaces of their own within one file.
 #define TEREN_VECTOR_BYTES 16
 namespace narrow {
-#include "generators/spectral/Stages.inc"
+#include "generators/spectral/Stages.h"
 }
 #undef TEREN_VECTOR_BYTES
 #if defined(__x86_64__)
@@ -35,7 +35,7 @@ namespace narrow {
 #pragma GCC target("avx2")
 #define TEREN_VECTOR_BYTES 32
 namespace wide {
-#include "generators/spectral/Stages.inc"
+#include "generators/spectral/Stages.h"
 }
 #undef TEREN_VECTOR_BYTES
 #pragma GCC pop_options
@@ -43,7 +43,7 @@ namespace wide {
 #pragma GCC target("avx512f")
 #define TEREN_VECTOR_BYTES 64
 namespace widest {
-#include "generators/spectral/Stages.inc"
+#include "generators/spectral/Stages.h"
 }
 #undef TEREN_VECTOR_BYTES
 #pragma GCC pop_options
