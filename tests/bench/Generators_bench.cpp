@@ -82,8 +82,9 @@ void matrix(benchmark::State& state, int side, bool fast) {
   }
 }
 
-/// Midpoint displacement of maps of so many samples a side.
-void midpoint(benchmark::State& state, int samples, bool fast) {
+/// Midpoint displacement of maps of as many samples a side as the argument says.
+void midpoint(benchmark::State& state, bool fast) {
+  const auto samples = static_cast<int>(state.range(0));
   static const MidpointDisplacement displacement{MidpointSettings{}};
   HeightMap map(samples, samples);
   MapRequest request{.samples = samples};
@@ -139,9 +140,8 @@ int runAll(int argc, char** argv) {
     benchmark::RegisterBenchmark((name + "/plain").c_str(), matrix, side, false)->Unit(microseconds);
   }
   for (const int side : {65, 129, 257, 1025}) {
-    const std::string name = "midpoint" + std::to_string(side);
-    benchmark::RegisterBenchmark((name + "/fast").c_str(), midpoint, side, true)->Unit(microseconds);
-    benchmark::RegisterBenchmark((name + "/plain").c_str(), midpoint, side, false)->Unit(microseconds);
+    benchmark::RegisterBenchmark("midpoint/fast", midpoint, true)->Arg(side)->Unit(microseconds);
+    benchmark::RegisterBenchmark("midpoint/plain", midpoint, false)->Arg(side)->Unit(microseconds);
   }
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
@@ -159,10 +159,9 @@ int runAll(int argc, char** argv) {
   reporter.printRatio("matrix3/plain", "matrix3/fast", 0.0);
   reporter.printRatio("matrix5/plain", "matrix5/fast", 0.0);
   reporter.printRatio("matrix31/plain", "matrix31/fast", 0.0);
-  reporter.printRatio("midpoint65/plain", "midpoint65/fast", 0.0);
-  reporter.printRatio("midpoint129/plain", "midpoint129/fast", 0.0);
-  reporter.printRatio("midpoint257/plain", "midpoint257/fast", 5.0);
-  reporter.printRatio("midpoint1025/plain", "midpoint1025/fast", 0.0);
+  for (const char* const side : {"/65", "/129", "/257", "/1025"}) {
+    reporter.printRatio("midpoint/plain", "midpoint/fast", side == std::string("/257") ? 5.0 : 0.0, side);
+  }
   return 0;
 }
 
