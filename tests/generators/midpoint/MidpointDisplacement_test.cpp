@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -87,6 +89,25 @@ TEST(MidpointDisplacement, EqualsThePlainVersionBitForBit) {
     }
     const MapRequest centre = requestOf(5, 65, 6);
     EXPECT_EQ(made(displacement, centre)(0, 0), plain(displacement, centre)(0, 0)) << describe(settings);
+  }
+}
+
+std::uint64_t hashOf(const HeightMap& map) {
+  Fnv1a hash;
+  for (float height : map.samples()) {
+    const auto bits = std::bit_cast<std::uint32_t>(height);
+    for (int shift = 0; shift < 32; shift += 8) hash.addByte(static_cast<std::uint8_t>(bits >> shift));
+  }
+  return hash.value();
+}
+
+TEST(MidpointDisplacement, HasTheBitsItHadWhenWritten) {
+  const std::pair<MidpointSettings, std::uint64_t> known[] = {{withHurst(0.8), 0x96186aceb02e427c},
+                                                              {withHurst(0.25), 0x15e58267ccd62d5},
+                                                              {lopsided(false), 0xd06960ab82884935},
+                                                              {lopsided(true), 0xf8af13d4c06e118e}};
+  for (const auto& [settings, hash] : known) {
+    EXPECT_EQ(hashOf(made(MidpointDisplacement(settings), requestOf(42, 129))), hash) << describe(settings);
   }
 }
 
