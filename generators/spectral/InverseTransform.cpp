@@ -11,7 +11,7 @@ namespace teren {
 namespace {
 
 using Cell = InverseTransform::Cell;
-constexpr int kLanes = 16;
+constexpr int kLanes = InverseTransform::kLanes;
 
 #define TEREN_ALWAYS_INLINE [[gnu::always_inline]] inline
 

@@ -51,10 +51,16 @@ double SpectralLaw::mostOfAmplitude() const noexcept {
   return rule_ == SpectralRule::published ? kCut * kCut : kCut * std::sqrt(2.0);
 }
 
+/// With fma, because of this shape alone GCC makes fused instructions by itself (doc/determinism.md).
+SpectralHarmonics::Turned SpectralHarmonics::product(const Turned& a, const Turned& b) noexcept {
+  return {std::fma(a.re, b.re, -(a.im * b.im)), std::fma(a.re, b.im, a.im * b.re)};
+}
+
 SpectralHarmonics::SpectralHarmonics(std::shared_ptr<const SpectralLaw> law, int wanted, std::uint64_t seed,
                                      PhaseShift shift)
     : law_(std::move(law)), wanted_(wanted), seed_(seed), shift_(shift) {
-  if (law_->rule() == SpectralRule::published) return;
+  drifts_ = law_->rule() == SpectralRule::isotropic && (shift.east != 0.0 || shift.north != 0.0);
+  if (!drifts_) return;
   for (int k = -wanted; k <= wanted; ++k) {
     const SineCosine turn = sineCosineOfTurn(-k * shift.east);
     drift_.push_back({turn.cosine, turn.sine});
@@ -87,10 +93,11 @@ Harmonic SpectralHarmonics::isotropic(std::uint64_t word, double amplitude, int 
   const Gaussian& gaussian = Gaussian::table();
   const double u = amplitude * gaussian.fromHalf(static_cast<std::uint32_t>(word >> 32));
   const double v = amplitude * gaussian.fromHalf(static_cast<std::uint32_t>(word));
-  const Turned& east = drift_[static_cast<std::size_t>(wanted_ + k)];
-  const double re = east.re * north.cosine - east.im * north.sine;
-  const double im = east.re * north.sine + east.im * north.cosine;
-  return {static_cast<float>(u * re + v * im), static_cast<float>(u * im - v * re)};
+  Turned wave{u, -v};
+  if (drifts_) {
+    wave = product(wave, product(drift_[static_cast<std::size_t>(wanted_ + k)], {north.cosine, north.sine}));
+  }
+  return {static_cast<float>(wave.re), static_cast<float>(wave.im)};
 }
 
 /// A cos + B sin is the real part of (A - i B) e^(i angle).

@@ -72,6 +72,10 @@ class SpectralHarmonics final : public HarmonicSource {
   void row(int l, Harmonic* row) const noexcept override;
 
  private:
+  struct Turned {
+    double re, im;
+  };
+  static Turned product(const Turned& a, const Turned& b) noexcept;
   Harmonic isotropic(std::uint64_t word, double amplitude, int k, const SineCosine& north) const noexcept;
   Harmonic published(std::uint64_t word, double amplitude) const noexcept;
 
@@ -79,10 +83,8 @@ class SpectralHarmonics final : public HarmonicSource {
   int wanted_;
   std::uint64_t seed_;
   PhaseShift shift_;
-  struct Turned {
-    double re, im;
-  };
-  std::vector<Turned> drift_;  // e^(-2 pi i k east), k = -largest ... largest; isotropic only
+  std::vector<Turned> drift_;  // e^(-2 pi i k east), k = -largest ... largest; where the pattern drifts
+  bool drifts_ = false;
 };
 
 }  // namespace teren
