@@ -173,6 +173,10 @@ Result<std::shared_ptr<const World>> World::create(const WorldDescription& descr
   const Result<int> bits = checkedSideBits(description.samples, 5, 1025, "");
   if (!bits) return bits.error();
   if (description.layers.empty()) return Error{"the world has no layers, expected at least one"};
+  if (description.layers.size() > WorldDescription::kMostLayers) {
+    return Error{"the world has " + std::to_string(description.layers.size()) + " layers, expected at most " +
+                 std::to_string(WorldDescription::kMostLayers)};
+  }
   Result<std::vector<LayerDescription>> layers = namedLayers(description.layers);
   if (!layers) return layers.error();
 

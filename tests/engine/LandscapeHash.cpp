@@ -68,6 +68,22 @@ teren::WorldDescription filteredFaults() {
   return description;
 }
 
+/// A layer of each of the other generators, and the filter that needs many passes.
+teren::WorldDescription otherGenerators() {
+  teren::WorldDescription description;
+  description.seed = 8;
+  double pitch = 64.0;
+  for (const char* generator : {"circles", "midpoint", "slope", "spectral", "steps"}) {
+    teren::LayerDescription layer;
+    layer.generator = generator;
+    layer.pitch = pitch;
+    description.layers.push_back(layer);
+    pitch *= 2.0;
+  }
+  description.layers[1].filters = {{"thermal", {}}};
+  return description;
+}
+
 /// The same few regions at every level, one of them where positions need more than 45 bits.
 void addRegions(Fnv1a& hash, const World& world, const teren::BakeOptions& options) {
   for (int level = 0; level <= std::min(4, world.topLevel()); ++level) {
@@ -226,7 +242,7 @@ std::uint64_t landscapeHash(const Trial& trial) {
   options.visitSeed = trial.visitSeed;
   const auto registry = teren::PluginRegistry::standard();
   Fnv1a hash;
-  for (const auto& description : {teren::WorldDescription::standard(), filteredFaults()}) {
+  for (const auto& description : {teren::WorldDescription::standard(), filteredFaults(), otherGenerators()}) {
     const std::shared_ptr<const World> world = valueOrExit(World::create(description, *registry));
     addRegions(hash, *world, options);
     addPoints(hash, *world, trial.visitSeed);

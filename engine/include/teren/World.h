@@ -44,7 +44,8 @@ struct WorldDescription {
   std::uint64_t seed = 0;
   double pitch = 64.0;  ///< [m] 0.001 ... 1e6
   int samples = 65;     ///< a patch has (samples - 1) / 2 intervals a side; 2^k + 1, 5 ... 1025
-  std::vector<LayerDescription> layers;
+  std::vector<LayerDescription> layers;  ///< 1 ... kMostLayers; every height costs all of them
+  static constexpr std::size_t kMostLayers = 256;
 
   /// Reads the JSON form. `source` names the file in messages. Every key is optional but `layers`; unknown
   /// keys, wrong types, bad values and nesting deeper than 32 are refused, naming the key and its place.
