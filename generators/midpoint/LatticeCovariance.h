@@ -13,7 +13,7 @@ namespace teren {
 /// A stage is linear in the heights it finds and does the same everywhere, so the averages before it decide
 /// the averages after it. A window of distances up to 3 is enough, because two points at a distance of 3
 /// after a stage depend on points at most 3 of the twice as long intervals apart before it. Rims are not
-/// seen: there the averages are off by under 2 % of the variance (tests/generators/midpoint).
+/// seen: what that costs shows in the deviation by point, which tests/generators/midpoint bounds.
 class LatticeCovariance {
  public:
   static constexpr int kReach = 3;

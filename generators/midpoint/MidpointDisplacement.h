@@ -26,15 +26,15 @@ namespace teren {
 /// covariance with its parents (as in conditionalised random midpoint displacement: Norros, Mannersalo, Wang
 /// 1999, for lines); all other covariances are carried exactly from stage to stage (LatticeCovariance.h).
 /// The mean squared difference of two heights at distance r then follows r^(2H), at all powers of two, along
-/// axes and diagonals, and the deviation is the same at every point within 2 %. Points half a map's side
-/// apart are independent. Above hurst = 0.9 displacements would need negative variances: they are left out,
-/// the deviation is kept, and the ground is a little rougher than asked.
+/// axes and diagonals, and the deviation is the same at every point within 2 % (at hurst = 1 within 3.5 %).
+/// Points half a map's side apart are independent. Above hurst = 0.9 displacements would need negative
+/// variances: they are left out, and the deviation is kept; how rough the ground is there is not promised.
 ///
 /// Corner weights all equal are the plain mean; other weights stretch the land along a diagonal and keep the
-/// deviation over the map, but at single points it differs by up to 15 %. Corners all 0: centres are random
-/// alone. In the corrected rule every source is scaled to variance 1, so randR and randN give the same law
-/// there. An inner edge point takes its source from the square in the south (its north) or in the west (its
-/// east); south and west hold on the map's rims only.
+/// deviation over the map, but at single points it differs (by 10 % where one corner in four counts nothing).
+/// Corners all 0: centres are random alone. In the corrected rule every source is scaled to variance 1, so
+/// randR and randN give the same law there. An inner edge point takes its source from the square in the south
+/// (its north) or in the west (its east); south and west hold on the map's rims only.
 ///
 /// A coarse level is the first stages of the same map: cost side^2, about 2 ns a sample. A task asks whether
 /// its slice is over after every row of new points, at most 5 us at a side of 1025. Immutable; any number of
