@@ -60,5 +60,6 @@ std::unique_ptr<Command> makeDescribeCommand(CLI::App& parent);
 std::unique_ptr<Command> makeBakeCommand(CLI::App& parent);
 std::unique_ptr<Command> makeQueryCommand(CLI::App& parent);
 std::unique_ptr<Command> makeFlightCommand(CLI::App& parent);
+std::unique_ptr<Command> makeNewPluginCommand(CLI::App& parent);
 
 }  // namespace teren

@@ -52,6 +52,7 @@ int main(int argumentCount, char** arguments) {
   commands.push_back(teren::makeBakeCommand(application));
   commands.push_back(teren::makeQueryCommand(application));
   commands.push_back(teren::makeFlightCommand(application));
+  commands.push_back(teren::makeNewPluginCommand(application));
   application.require_subcommand(0, 1);
 
   if (const auto code = teren::parseCommandLine(application, argumentCount, arguments)) {
@@ -60,6 +61,7 @@ int main(int argumentCount, char** arguments) {
   for (const auto& command : commands) {
     if (command->chosen()) return finish(application, run(application, *command));
   }
-  return teren::fail(application, teren::kWrongInput,
-                     "a command is missing: plugins, describe, bake, query or flight (see teren --help)");
+  return teren::fail(
+      application, teren::kWrongInput,
+      "a command is missing: plugins, describe, bake, query, flight or new-plugin (see teren --help)");
 }
