@@ -109,6 +109,14 @@ TEST_P(EngineObjects, AMadObjectStarvesNobody) {
   }
 }
 
+TEST_P(EngineObjects, GroundThatIsLeftBeforeItCouldBeMadeIsNotWanted) {
+  auto made = Engine::create(world_, {.view = {1, 1}, .workers = GetParam()});
+  engine_ = std::move(*made);
+  add({{}, 1e4, 1e9, -1e9});
+  engine_->update(1.0 / 60.0, milliseconds(0));  // chooses, and has no time for more
+  EXPECT_EQ(engine_->figures().pending, 9U);     // the view's nodes, and no ground
+}
+
 TEST_P(EngineObjects, MotionThatCannotBeIsNamedOnceAndBreaksNothing) {
   Rocket& mad = add({{3, 3, 0.5, 0.5}, 1e4});
   const Rocket& calm = add({{10, 10, 0.5, 0.5}, 1e4, 30.0});
