@@ -9,8 +9,6 @@
 namespace teren {
 namespace {
 
-constexpr int kMaxRadius = 64;                                               // ViewSettings
-constexpr int kMaxWorkers = 64;                                              // EngineOptions
 constexpr int kMinCap = EngineOptions::kLeastCap >> 20U, kMaxCap = 1 << 20;  // [MiB]
 constexpr int kMostByDefault = 4;
 
@@ -57,7 +55,7 @@ Result<ViewSettings> FlyCommandLine::view(const World& world) const {
       readWhole(*viewLevel_, std::min(view.level, world.topLevel()), 0, world.topLevel());
   if (!level) return level.error();
   view.level = *level;
-  const Result<int> radius = readWhole(*radius_, view.radius, 1, kMaxRadius);
+  const Result<int> radius = readWhole(*radius_, view.radius, 1, ViewSettings::kMostRadius);
   if (!radius) return radius.error();
   view.radius = *radius;
   if (viewDistance_->count() > 0 && radius_->count() > 0) {
@@ -71,7 +69,7 @@ Result<FlyOptions> FlyCommandLine::resolve(const World& world) const {
   const Result<ViewSettings> view = this->view(world);
   if (!view) return view.error();
   options.engine.view = *view;
-  const Result<int> workers = readWhole(*workers_, options.engine.workers, 0, kMaxWorkers);
+  const Result<int> workers = readWhole(*workers_, options.engine.workers, 0, EngineOptions::kMostWorkers);
   if (!workers) return workers.error();
   options.engine.workers = *workers;
   const Result<int> cap =

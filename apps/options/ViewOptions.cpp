@@ -5,11 +5,6 @@
 #include "apps/options/CommandLine.h"
 
 namespace teren {
-namespace {
-
-constexpr int kMaxRadius = 64;  // ViewSettings
-
-}  // namespace
 
 const CLI::Option* addViewDistance(CLI::App& application, const std::string& doc) {
   return application.add_option("--view-distance", doc)->type_name("M");
@@ -18,7 +13,7 @@ const CLI::Option* addViewDistance(CLI::App& application, const std::string& doc
 Result<ViewSettings> viewReaching(const CLI::Option& viewDistance, const ViewSettings& view,
                                   const World& world) {
   if (viewDistance.count() == 0) return view;
-  const double farthest = ViewSettings{view.level, kMaxRadius}.reach(world);
+  const double farthest = ViewSettings{view.level, ViewSettings::kMostRadius}.reach(world);
   const Result<double> distance =
       numberArgument(viewDistance.get_name(), argument(viewDistance), 1.0, farthest);
   if (!distance) return Error{distance.error().message + " at level " + std::to_string(view.level)};

@@ -21,7 +21,6 @@ namespace {
 constexpr double kFastest = 1e5;       // [m/s]
 constexpr double kLongest = 86'400.0;  // [s]
 constexpr std::int64_t kMostObjects = 1000;
-constexpr std::int64_t kMostWorkers = 64;                                                   // EngineOptions
 constexpr std::int64_t kLongestBudget = 1'000'000;                                          // [us]
 constexpr std::int64_t kLeastCap = EngineOptions::kLeastCap >> 20U, kLargestCap = 1 << 20;  // [MiB]
 
@@ -136,7 +135,7 @@ class FlightCommand final : public Command {
     if (!seconds) return seconds.error();
     const Result<std::int64_t> objects = whole(*objects_, plan.objects, 1, kMostObjects);
     if (!objects) return objects.error();
-    const Result<std::int64_t> workers = whole(*workers_, 0, 0, kMostWorkers);
+    const Result<std::int64_t> workers = whole(*workers_, 0, 0, EngineOptions::kMostWorkers);
     if (!workers) return workers.error();
     const Result<std::int64_t> budget = whole(*budget_, plan.budget.count(), 1, kLongestBudget);
     if (!budget) return budget.error();

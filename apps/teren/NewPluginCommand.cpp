@@ -4,6 +4,7 @@
 #include <iostream>
 #include <system_error>
 
+#include "teren/PluginRegistry.h"
 #include "teren/Quote.h"
 
 #include "apps/teren/Command.h"
@@ -15,13 +16,6 @@ namespace teren {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kLongestId = 64;
-
-bool isPluginId(const std::string& id) {
-  return !id.empty() && id.size() <= kLongestId &&
-         id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
-}
 
 Result<void> write(const fs::path& path, const std::string& text) {
   Result<OutputFile> file = OutputFile::create(path);

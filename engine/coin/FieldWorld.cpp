@@ -14,8 +14,6 @@
 namespace teren {
 namespace {
 
-constexpr int kMaxRadius = 64;  // nodes: Engine's own limit
-
 Result<std::uint64_t> parseSeed(const std::string& text) {
   std::uint64_t seed = 0;
   const char* end = text.data() + text.size();
@@ -60,7 +58,7 @@ Result<ViewSettings> checkView(const TerrainFields& fields, const World& world) 
     return Error{"viewLevel is " + std::to_string(fields.viewLevel) + ", expected 0 to " +
                  std::to_string(world.topLevel()) + ", the world's top level"};
   }
-  const double farthest = ViewSettings{fields.viewLevel, kMaxRadius}.reach(world);
+  const double farthest = ViewSettings{fields.viewLevel, ViewSettings::kMostRadius}.reach(world);
   const double distance = static_cast<double>(fields.viewDistance);
   if (!(distance > 0.0 && distance <= farthest)) {
     return Error{"viewDistance is " + numberText(distance) + " m, expected more than 0 and at most " +

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "teren/PluginRegistry.h"
 #include "teren/Quote.h"
 
 #include "plugin/SharedObject.h"
@@ -19,7 +20,6 @@ namespace {
 
 constexpr std::string_view kPrefix = "teren-";
 constexpr std::string_view kSuffix = ".so";
-constexpr std::size_t kLongestId = 64;
 constexpr std::size_t kSentenceBytes = 400;  // of the loader's or a plugin's own words
 constexpr std::uint64_t kMostAbiWords = 256;
 
@@ -79,7 +79,7 @@ Result<void> checkTexts(const PluginDescription& description, const std::string&
   const std::string_view id(description.id, strnlen(description.id, 1000));
   if (!isPluginId(id)) {
     return Error{"its id " + inQuotes(id) + " is not made of lower-case letters, digits and '-', 1 to " +
-                 std::to_string(kLongestId)};
+                 std::to_string(kLongestPluginId)};
   }
   if (id != expectedId) {
     return Error{"its id is " + inQuotes(id) + " but its file name says " + inQuotes(expectedId)};
@@ -117,12 +117,6 @@ std::string pluginIdFromFile(const std::filesystem::path& file) {
   if (name.size() <= kPrefix.size() + kSuffix.size()) return {};
   if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return {};
   return name.substr(kPrefix.size(), name.size() - kPrefix.size() - kSuffix.size());
-}
-
-bool isPluginId(std::string_view id) noexcept {
-  return !id.empty() && id.size() <= kLongestId && std::all_of(id.begin(), id.end(), [](char c) {
-    return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '-';
-  });
 }
 
 Result<void> compareAbiWords(std::span<const AbiWord> module, std::span<const AbiWord> engine) {

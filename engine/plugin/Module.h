@@ -23,9 +23,6 @@ struct Module {
 /// checked).
 std::string pluginIdFromFile(const std::filesystem::path& file);
 
-/// Lower-case letters, digits and '-', at least one, at most 64.
-bool isPluginId(std::string_view id) noexcept;
-
 /// Loads the file with RTLD_NOW | RTLD_LOCAL, which runs its static initialisers, and checks its description
 /// and table. The sentence of a refusal does not repeat the file's name. What is refused is unloaded again.
 /// A static initialiser that throws or crashes ends the process: the loader lets nobody catch that. One

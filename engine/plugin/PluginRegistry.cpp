@@ -67,6 +67,12 @@ Result<std::shared_ptr<const Base>> callMaker(std::unique_ptr<Base> (*make)(cons
 
 }  // namespace
 
+bool isPluginId(std::string_view id) noexcept {
+  return !id.empty() && id.size() <= kLongestPluginId && std::all_of(id.begin(), id.end(), [](char c) {
+    return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '-';
+  });
+}
+
 std::shared_ptr<const PluginRegistry> PluginRegistry::load(std::span<const fs::path> folders) {
   const std::shared_ptr<PluginRegistry> registry(new PluginRegistry);
   std::vector<fs::path> visited;

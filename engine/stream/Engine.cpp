@@ -18,13 +18,10 @@ double ViewSettings::reach(const World& world) const noexcept {
 
 int ViewSettings::radiusFor(double distance, int level, const World& world) noexcept {
   const double side = world.pitch() * static_cast<double>(std::int64_t{1} << level);
-  return static_cast<int>(std::clamp(std::ceil(distance / side), 1.0, 64.0));
+  return static_cast<int>(std::clamp(std::ceil(distance / side), 1.0, double{kMostRadius}));
 }
 
 namespace {
-
-constexpr int kMostWorkers = 64;
-constexpr int kMostRadius = 64;
 
 Result<void> check(const EngineOptions& options, const World& world) {
   const auto outside = [](const std::string& what, auto value, const std::string& expected) {
@@ -34,11 +31,13 @@ Result<void> check(const EngineOptions& options, const World& world) {
     return outside("the view's level", options.view.level,
                    "0 to " + std::to_string(world.topLevel()) + ", the world's top level");
   }
-  if (options.view.radius < 1 || options.view.radius > kMostRadius) {
-    return outside("the view's radius", options.view.radius, "1 to 64 nodes");
+  if (options.view.radius < 1 || options.view.radius > ViewSettings::kMostRadius) {
+    return outside("the view's radius", options.view.radius,
+                   "1 to " + std::to_string(ViewSettings::kMostRadius) + " nodes");
   }
-  if (options.workers < 0 || options.workers > kMostWorkers) {
-    return outside("the engine's number of workers", options.workers, "0 to 64");
+  if (options.workers < 0 || options.workers > EngineOptions::kMostWorkers) {
+    return outside("the engine's number of workers", options.workers,
+                   "0 to " + std::to_string(EngineOptions::kMostWorkers));
   }
   const std::size_t least = std::max(EngineOptions::kLeastCap, Streamer::leastCap(world, options));
   if (options.capBytes < least) {

@@ -21,7 +21,8 @@ namespace teren {
 /// The view: (2 radius + 1)^2 nodes of one uniform level around the active object.
 struct ViewSettings {
   int level = 2;   ///< 0 ... World::topLevel(); a level more draws a quarter of the triangles per area
-  int radius = 6;  ///< 1 ... 64 nodes; triangles grow with its square
+  int radius = 6;  ///< 1 ... kMostRadius nodes; triangles grow with its square
+  static constexpr int kMostRadius = 64;
 
   /// How far [m] the ground is drawn in every direction at least, wherever in its node the object is.
   double reach(const World& world) const noexcept;
@@ -31,9 +32,10 @@ struct ViewSettings {
 
 struct EngineOptions {
   ViewSettings view;
-  /// Threads that make terrain, 0 ... 64. With 0 all work is done in slices on the thread that calls update;
-  /// with more, update only integrates what they have finished. The landscape is the same.
+  /// Threads that make terrain, 0 ... kMostWorkers. With 0 all work is done in slices on the thread that
+  /// calls update; with more, update only integrates what they have finished. The landscape is the same.
   int workers = 0;
+  static constexpr int kMostWorkers = 64;
   /// Most bytes the engine holds, at least kLeastCap: maps, nodes, meshes, tasks in flight, and what its
   /// renderer reports. Where the view needs more, its far parts are left out until there is room (law 6).
   std::size_t capBytes = std::size_t{512} << 20;

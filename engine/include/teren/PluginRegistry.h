@@ -1,6 +1,7 @@
 // Finds, checks and loads plugin modules, and makes generators and filters by id.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -15,6 +16,11 @@
 #include "teren/Result.h"
 
 namespace teren {
+
+/// Whether a plugin may have this id: lower-case letters, digits and '-', at least one, at most
+/// kLongestPluginId.
+bool isPluginId(std::string_view id) noexcept;
+inline constexpr std::size_t kLongestPluginId = 64;
 
 /// A loaded plugin. The texts and the table live as long as the process: modules are never unloaded.
 struct PluginInfo {
