@@ -10,32 +10,17 @@
 
 #include "generators/fault/FaultFormation.h"
 #include "generators/filter/BandReference.h"
+#include "tests/generators/filter/FilterMaps.h"
 #include "tests/support/AllocationCount.h"
 #include "tests/support/SlicedWork.h"
 
 namespace teren {
 namespace {
 
+using test::faults;
 using test::finish;
+using test::rubble;
 using test::sameBits;
-
-/// Heights uniform in [-1000, 1000) m.
-HeightMap rubble(int columns, int rows, std::uint64_t seed) {
-  HeightMap map(columns, rows);
-  RandomSequence random(seed);
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      map(column, row) = static_cast<float>(random.nextBits(24) - (1 << 23)) * (1000.0f / (1 << 23));
-    }
-  }
-  return map;
-}
-
-HeightMap faults(std::uint64_t seed, int samples) {
-  HeightMap map(samples, samples);
-  finish(*FaultFormation(150, 1.0).begin({.seed = seed, .samples = samples}, map.view()));
-  return map;
-}
 
 HeightMap filtered(const BandFilter& filter, HeightMap map, const Slice& slice = Slice::unlimited()) {
   finish(*filter.begin(map.view()), slice);

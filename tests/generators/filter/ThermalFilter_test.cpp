@@ -10,32 +10,17 @@
 
 #include "generators/fault/FaultFormation.h"
 #include "generators/filter/ThermalReference.h"
+#include "tests/generators/filter/FilterMaps.h"
 #include "tests/support/AllocationCount.h"
 #include "tests/support/SlicedWork.h"
 
 namespace teren {
 namespace {
 
+using test::faults;
 using test::finish;
+using test::rubble;
 using test::sameBits;
-
-/// Heights uniform in [-1000, 1000) m.
-HeightMap rubble(int columns, int rows, std::uint64_t seed) {
-  HeightMap map(columns, rows);
-  RandomSequence random(seed);
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      map(column, row) = static_cast<float>(random.nextBits(24) - (1 << 23)) * (1000.0f / (1 << 23));
-    }
-  }
-  return map;
-}
-
-HeightMap faults(std::uint64_t seed, int samples, double deviation = 40.0) {
-  HeightMap map(samples, samples);
-  finish(*FaultFormation(150, deviation).begin({.seed = seed, .samples = samples}, map.view()));
-  return map;
-}
 
 HeightMap filtered(const ThermalFilter& filter, double spacing, HeightMap map,
                    const Slice& slice = Slice::unlimited()) {
@@ -211,7 +196,7 @@ TEST(ThermalFilter, BringsSlopesToTheTalusAngle) {
 }
 
 TEST(ThermalFilter, SquaredHeightsOnlyShrink) {
-  HeightMap map = faults(4, 65);
+  HeightMap map = faults(4, 65, 40.0);
   const auto squares = [](const HeightMap& heights) {
     double sum = 0.0;
     for (float height : heights.samples()) sum += static_cast<double>(height) * height;
@@ -231,7 +216,7 @@ TEST(ThermalFilter, ResidualBoundsWhatTheFilteredCoarseMapDrawsOfFaults) {
     for (int level = 1; level <= 3; ++level) {
       double square = 0.0;
       for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        const HeightMap raw = faults(mixBits(seed), 257);
+        const HeightMap raw = faults(mixBits(seed), 257, 40.0);
         square +=
             test::squaredError(filtered(filter, 2.0, raw),
                                filtered(filter, 2.0 * (1 << level), test::subsampled(raw, level)), level);
