@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "teren/HeightMap.h"
 #include "teren/Slice.h"
@@ -70,6 +71,19 @@ inline double squaredError(const HeightMap& finest, const HeightMap& coarse, int
     }
   }
   return sum / (static_cast<double>(finest.columns()) * finest.rows());
+}
+
+/// Adds to squares[level] the squaredError of every level of at least 3 samples a side, and to squares[0] the
+/// mean of the squared differences from the centre, divided by the number of `maps` that will be added.
+inline void addSquaredErrors(const HeightMap& finest, int maps, std::span<double> squares) {
+  const int samples = finest.columns();
+  for (int level = 1; (samples - 1) >> level >= 2; ++level) {
+    squares[level] += squaredError(finest, subsampled(finest, level), level) / maps;
+  }
+  const float centre = finest(samples / 2, samples / 2);
+  for (float height : finest.samples()) {
+    squares[0] += static_cast<double>((height - centre) * (height - centre)) / (samples * samples * maps);
+  }
 }
 
 }  // namespace teren::test

@@ -342,14 +342,7 @@ TEST(MidpointDisplacement, ResidualIsWithinAFactorOfWhatIsMeasured) {
       std::array<double, 9> squares{};
       for (int seed = 0; seed < seeds; ++seed) {
         const HeightMap finest = made(displacement, requestOf(mixBits(seed), samples));
-        for (int level = 1; (samples - 1) >> level >= 2; ++level) {
-          squares[level] += test::squaredError(finest, test::subsampled(finest, level), level) / seeds;
-        }
-        const float centre = finest(samples / 2, samples / 2);
-        for (float height : finest.samples()) {
-          squares[0] +=
-              static_cast<double>((height - centre) * (height - centre)) / (samples * samples * seeds);
-        }
+        test::addSquaredErrors(finest, seeds, squares);
       }
       for (int level = 1; (samples - 1) >> level >= 2; ++level) {
         const double ratio = displacement.residual(level, samples) / std::sqrt(squares[level]);

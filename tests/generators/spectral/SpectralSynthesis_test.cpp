@@ -291,14 +291,7 @@ TEST(SpectralSynthesis, ResidualIsWithinAFactorOfWhatIsMeasured) {
         std::vector<double> squares(10);
         for (std::uint64_t seed = 0; seed < seeds; ++seed) {
           const HeightMap finest = made(synthesis, requestOf(mixBits(seed), samples));
-          for (int level = 1; (samples - 1) >> level >= 2; ++level) {
-            squares[level] += test::squaredError(finest, test::subsampled(finest, level), level) / seeds;
-          }
-          const float centre = finest(samples / 2, samples / 2);
-          for (float height : finest.samples()) {
-            squares[0] +=
-                static_cast<double>((height - centre) * (height - centre)) / (samples * samples * seeds);
-          }
+          test::addSquaredErrors(finest, seeds, squares);
         }
         for (int level = 1; (samples - 1) >> level >= 2; ++level) {
           const double ratio = synthesis.residual(level, samples) / std::sqrt(squares[level]);
