@@ -10,6 +10,8 @@
 
 #include "teren/Engine.h"
 
+#include "tests/engine/stream/FaultWorld.h"
+
 namespace teren {
 namespace {
 
@@ -20,20 +22,7 @@ constexpr std::size_t kMiB = std::size_t{1} << 20;
 
 /// A world whose nodes take about 40 kB each, and whose base maps thousands of bytes.
 std::shared_ptr<const World> largeWorld() {
-  WorldDescription description;
-  description.seed = 6;
-  description.samples = 65;
-  for (const double pitch : {512.0, 64.0}) {
-    LayerDescription layer;
-    layer.generator = "fault";
-    layer.parameters = {{"faults", std::int64_t{10}}, {"deviation", pitch / 16.0}};
-    layer.pitch = pitch;
-    layer.samples = 65;
-    description.layers.push_back(layer);
-  }
-  auto world = World::create(description, *PluginRegistry::standard());
-  EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().message);
-  return *world;
+  return test::faultWorld(6, 65, {512.0, 64.0}, 10);
 }
 
 /// Goes where it is told.

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "height/Surface.h"
+#include "tests/engine/stream/FaultWorld.h"
 
 namespace teren {
 namespace {
@@ -18,20 +19,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
 std::shared_ptr<const World> smallWorld() {
-  WorldDescription description;
-  description.seed = 3;
-  description.samples = 17;
-  for (const double pitch : {1024.0, 64.0}) {
-    LayerDescription layer;
-    layer.generator = "fault";
-    layer.parameters = {{"faults", std::int64_t{20}}, {"deviation", pitch / 16.0}};
-    layer.pitch = pitch;
-    layer.samples = 17;
-    description.layers.push_back(layer);
-  }
-  auto world = World::create(description, *PluginRegistry::standard());
-  EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().message);
-  return *world;
+  return test::faultWorld(3, 17, {1024.0, 64.0}, 20);
 }
 
 /// Goes where it is told.
