@@ -23,7 +23,8 @@ double largestOf(MidpointSource source) noexcept {
 /// difference between a new point and the points it is made from. Of all pairs at a distance only some are
 /// made together, and the others differ less (with small exponents, more); and a map's last stages have none
 /// after them. Solved by fixed-point iteration on the exact covariances of a map of 65 x 65, so that the mean
-/// squared differences over all pairs follow the power law along the axes and along the diagonals.
+/// squared differences over all pairs follow the power law along the axes and along the diagonals;
+/// MidpointPlan_test computes these covariances and finds all slopes within 0.03 of hurst, 0.06 at 0.9.
 /// Row: hurst = 0, 0.1 ... 1.
 struct Aim {
   double centre, edge;
