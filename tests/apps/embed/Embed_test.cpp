@@ -7,6 +7,7 @@
 #include <string>
 
 #include <QApplication>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QSpinBox>
 #include <QTest>
@@ -14,6 +15,7 @@
 #include <QVBoxLayout>
 #include <gtest/gtest.h>
 
+#include "qt/ParameterPanel.h"
 #include "qt/TerrainWidget.h"
 #include "tests/qt/Sight.h"
 #include "tests/support/PrivateDisplay.h"
@@ -65,7 +67,7 @@ struct Window {
     }
     land = window->findChild<TerrainWidget*>();
     seed = window->findChild<QSpinBox*>();
-    label = window->findChildren<QLabel*>().back();
+    label = window->findChild<QLabel*>(QString(), Qt::FindDirectChildrenOnly);  // the panel has some too
   }
   QWidget* window = nullptr;
   TerrainWidget* land = nullptr;
@@ -110,6 +112,23 @@ TEST(Embed, ShowsTheLandOfTheSeedAndTheHeightUnderTheCursor) {
   });
 }
 
+TEST(Embed, ChangesTheLandWithItsParameters) {
+  runProgram([] {
+    const Window program;
+    ASSERT_TRUE(comesToRest(*program.land));
+    const QImage first = screenOf(*program.land);
+    auto* panel = program.window->findChild<ParameterPanel*>();
+    ASSERT_NE(panel, nullptr);
+    auto* deviation = panel->findChild<QDoubleSpinBox*>(QStringLiteral("deviation"));
+    ASSERT_NE(deviation, nullptr);
+    const double before = program.land->world()->deviation();
+    deviation->setValue(2.0 * deviation->value());
+    EXPECT_GT(program.land->world()->deviation(), 1.5 * before);
+    ASSERT_TRUE(comesToRest(*program.land));
+    EXPECT_GT(difference(screenOf(*program.land), first), 0.3);
+  });
+}
+
 TEST(Embed, GoesOnWhenItsLandIsMovedHiddenDeletedAndMadeAgain) {
   runProgram([] {
     const Window program;
@@ -138,7 +157,7 @@ TEST(Embed, GoesOnWhenItsLandIsMovedHiddenDeletedAndMadeAgain) {
     other.hide();
     program.seed->setValue(5);
     auto* again = new TerrainWidget;
-    static_cast<QVBoxLayout*>(program.window->layout())->insertWidget(0, again, 1);
+    static_cast<QBoxLayout*>(program.window->layout())->insertWidget(0, again, 1);
     again->setFixedSize(size);
     WorldDescription world = WorldDescription::standard();
     world.seed = 42;
