@@ -31,7 +31,7 @@ class @CLASS@ final : public teren::Generator {
   // The mean and deviation of every sample over all seeds, and bounds that no height may leave.
   teren::HeightRange range() const override { return {0.0, deviation_, -largest(), largest()}; }
   // RMS [m] of the finest map minus the triangles through its samples of a coarser level: flat maps lose nothing.
-  double residual(int, int) const override { return 0.0; }
+  double residual(int, int, double) const override { return 0.0; }
 
   // A pure function of the parameters and the request: random numbers come from request.seed alone, and a coarse
   // map must equal the fine one, sampled.

@@ -27,7 +27,7 @@ class CirclesGenerator final : public teren::Generator {
                  values.real("smallest")) {}
 
   teren::HeightRange range() const override { return circles_.range(); }
-  double residual(int level, int samples) const override { return circles_.residual(level, samples); }
+  double residual(int level, int samples, double) const override { return circles_.residual(level, samples); }
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest& request,
                                                teren::HeightView out) const override {
     return circles_.begin(request, out);

@@ -24,7 +24,7 @@ class ConstantGenerator final : public teren::Generator {
     return {.mean = height_, .deviation = 0.0, .min = height_, .max = height_};
   }
   // Triangles through any samples lie at the height too.
-  double residual(int, int) const override { return 0.0; }
+  double residual(int, int, double) const override { return 0.0; }
 
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest&,
                                                teren::HeightView out) const override {

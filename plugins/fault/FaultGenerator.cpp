@@ -21,7 +21,9 @@ class FaultGenerator final : public teren::Generator {
       : formation_(static_cast<int>(values.integer("faults")), values.real("deviation")) {}
 
   teren::HeightRange range() const override { return formation_.range(); }
-  double residual(int level, int samples) const override { return formation_.residual(level, samples); }
+  double residual(int level, int samples, double) const override {
+    return formation_.residual(level, samples);
+  }
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest& request,
                                                teren::HeightView out) const override {
     return formation_.begin(request, out);

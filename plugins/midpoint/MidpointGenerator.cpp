@@ -54,7 +54,9 @@ class MidpointGenerator final : public teren::Generator {
   explicit MidpointGenerator(const teren::Values& values) : displacement_(settingsOf(values)) {}
 
   teren::HeightRange range() const override { return displacement_.range(); }
-  double residual(int level, int samples) const override { return displacement_.residual(level, samples); }
+  double residual(int level, int samples, double) const override {
+    return displacement_.residual(level, samples);
+  }
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest& request,
                                                teren::HeightView out) const override {
     return displacement_.begin(request, out);

@@ -35,7 +35,7 @@ class SlopeGenerator final : public teren::Generator {
             .max = static_cast<float>(east_ + north_)};
   }
   // Triangles through samples of a plane are the plane, but for the rounding to float.
-  double residual(int, int) const override { return 0.0; }
+  double residual(int, int, double) const override { return 0.0; }
 
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest& request,
                                                teren::HeightView out) const override {

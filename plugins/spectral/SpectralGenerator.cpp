@@ -32,7 +32,9 @@ class SpectralGenerator final : public teren::Generator {
                    {.east = turns(values, "windEast"), .north = turns(values, "windNorth")}) {}
 
   teren::HeightRange range() const override { return synthesis_.range(); }
-  double residual(int level, int samples) const override { return synthesis_.residual(level, samples); }
+  double residual(int level, int samples, double) const override {
+    return synthesis_.residual(level, samples);
+  }
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest& request,
                                                teren::HeightView out) const override {
     return synthesis_.begin(request, out);

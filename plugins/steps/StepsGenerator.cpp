@@ -24,7 +24,9 @@ class StepsGenerator final : public teren::Generator {
                    static_cast<int>(values.integer("terraces"))) {}
 
   teren::HeightRange range() const override { return staircase_.range(); }
-  double residual(int level, int samples) const override { return staircase_.residual(level, samples); }
+  double residual(int level, int samples, double) const override {
+    return staircase_.residual(level, samples);
+  }
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest& request,
                                                teren::HeightView out) const override {
     return staircase_.begin(request, out);

@@ -1,4 +1,5 @@
 // One contract for every plugin the registry finds, Teren's own and, through TEREN_PLUGIN_PATH, others.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -24,6 +25,8 @@ const PluginRegistry& registry() {
   return *PluginRegistry::standard();
 }
 
+constexpr double kSpacing = 2.0;  // [m] between the samples of every finest map here
+
 /// Makes maps with a plugin: a generator makes them anew, a filter changes faults of the map's own seed.
 class MapMaker {
  public:
@@ -38,7 +41,7 @@ class MapMaker {
   HeightRange sourceRange() const { return generator_->range(); }
   HeightRange range() const { return filters_ ? filter_->range(sourceRange()) : sourceRange(); }
   double residual(int level, int samples) const {
-    const double before = generator_->residual(level, samples);
+    const double before = generator_->residual(level, samples, kSpacing);
     return filters_ ? filter_->residual(before, level) : before;
   }
 
@@ -70,8 +73,8 @@ MapRequest request(int n, int samples, int level = 0) {
           .seed = mapSeed(42, "contract", i, j),
           .samples = intervals < 2 ? 1 : intervals + 1,
           .level = level,
-          .spacing = 2.0 * (std::int64_t{1} << level),
-          .finestIntervals = samples - 1};
+          .spacing = kSpacing * static_cast<double>(std::int64_t{1} << level),
+          .finestIntervals = std::max(2, samples - 1)};
 }
 
 /// Settings that change what a plugin does, for the laws that are measured: the defaults, and more where a

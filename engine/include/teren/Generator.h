@@ -21,7 +21,7 @@ struct MapRequest {
 
   /// Intervals along a side of the finest map, a power of two: finest side minus one. A request for the
   /// centre alone (samples = 1) does not know it, so it carries `finestIntervals` explicitly.
-  int finestIntervals = 64;
+  int finestIntervals = 64;  ///< at least 2
 };
 
 /// What a generator promises of its maps, in metres. At every sample of every map the mean over all seeds
@@ -35,6 +35,9 @@ struct Traits {
   /// Maps above level 0 differ from the subsampled finest map. Without it, a map at level L must equal every
   /// 2^L-th sample of the same map at level 0, bit for bit.
   bool approximate = false;
+  /// One field over the whole plane, sampled where it is wanted, instead of maps to be blended: the generator
+  /// is a ContinuousGenerator.
+  bool continuous = false;
 };
 
 /// The making of one base map, in slices; `step` returns true once the map is complete.
@@ -53,8 +56,9 @@ class Generator {
   virtual HeightRange range() const = 0;
 
   /// Root mean square [m] over a finest map and over seeds of: the finest map minus the triangles through
-  /// its level-L samples. `samples` is the side of the finest map. 0 at level 0.
-  virtual double residual(int level, int samples) const = 0;
+  /// its level-L samples. `samples` is the side of the finest map and `spacing` [m] the distance of its
+  /// samples, which those ignore whose maps stretch with the lattice. 0 at level 0.
+  virtual double residual(int level, int samples, double spacing) const = 0;
 
   /// Begins the map `request` asks for; `out` (request.samples square) must outlive the task and is complete
   /// when its step has returned true. A pure function of the generator's values and the request.

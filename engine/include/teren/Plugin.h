@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "teren/ContinuousGenerator.h"
 #include "teren/Filter.h"
 #include "teren/Generator.h"
 
@@ -23,7 +24,7 @@ struct AbiWord {
 };
 
 /// Raised whenever a type in engine/include/teren that crosses the boundary changes its layout or meaning.
-inline constexpr std::uint64_t kPluginInterfaceVersion = 1;
+inline constexpr std::uint64_t kPluginInterfaceVersion = 2;
 
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr std::uint64_t kSanitizerWord = 1;
@@ -31,6 +32,13 @@ inline constexpr std::uint64_t kSanitizerWord = 1;
 inline constexpr std::uint64_t kSanitizerWord = 2;
 #else
 inline constexpr std::uint64_t kSanitizerWord = 0;
+#endif
+
+// Without it the engine could not ask a generator whether it is continuous.
+#if defined(__GXX_RTTI)
+inline constexpr std::uint64_t kTypeInformationWord = 1;
+#else
+inline constexpr std::uint64_t kTypeInformationWord = 0;
 #endif
 
 /// The words of the translation unit that includes this header. The alignment of Eigen's fixed vectors goes
@@ -44,6 +52,8 @@ inline constexpr AbiWord kAbiWords[] = {
     {"alignment of Eigen::Vector4d", alignof(Eigen::Vector4d)},
     {"size of Values", sizeof(Values)},
     {"size of MapRequest", sizeof(MapRequest)},
+    {"size of FieldRequest", sizeof(FieldRequest)},
+    {"run-time type information", kTypeInformationWord},
     {"sanitizer", kSanitizerWord},
 };
 

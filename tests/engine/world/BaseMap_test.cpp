@@ -40,7 +40,7 @@ class HostileGenerator final : public Generator {
  public:
   explicit HostileGenerator(Begin begin) : begin_(std::move(begin)) {}
   HeightRange range() const override { return {12.0, 3.0, 2.0, 22.0}; }
-  double residual(int, int) const override { return 0.0; }
+  double residual(int, int, double) const override { return 0.0; }
   std::unique_ptr<GenerationTask> begin(const MapRequest& request, HeightView out) const override {
     return begin_(request, out);
   }

@@ -120,7 +120,7 @@ class FieldGenerator final : public Generator {
   using Field = std::function<double(std::int64_t i, std::int64_t j, double x, double y)>;
   explicit FieldGenerator(Field field) : field_(std::move(field)) {}
   HeightRange range() const override { return {0.0, 1.0, -1e6, 1e6}; }
-  double residual(int, int) const override { return 0.0; }
+  double residual(int, int, double) const override { return 0.0; }
   std::unique_ptr<GenerationTask> begin(const MapRequest& request, HeightView out) const override {
     for (int y = 0; y < out.rows(); ++y) {
       for (int x = 0; x < out.columns(); ++x) {

@@ -30,7 +30,7 @@ class HashNoise final : public Generator {
     const double reach = 1.74 * deviation_ + 1e-6 * std::fabs(mean_);
     return {mean_, deviation_, mean_ - reach, mean_ + reach};
   }
-  double residual(int level, int) const override { return level == 0 ? 0.0 : 2.0 * deviation_; }
+  double residual(int level, int, double) const override { return level == 0 ? 0.0 : 2.0 * deviation_; }
   std::unique_ptr<GenerationTask> begin(const MapRequest& request, HeightView out) const override {
     return std::make_unique<Task>(mean_, deviation_, request, out);
   }

@@ -96,7 +96,9 @@ class Sluggish final : public Generator {
  public:
   Sluggish(nanoseconds begin, nanoseconds step) : begin_(begin), step_(step), noise_(3.0, 5.0) {}
   HeightRange range() const override { return noise_.range(); }
-  double residual(int level, int samples) const override { return noise_.residual(level, samples); }
+  double residual(int level, int samples, double spacing) const override {
+    return noise_.residual(level, samples, spacing);
+  }
   std::unique_ptr<GenerationTask> begin(const MapRequest& request, HeightView out) const override {
     burn(begin_);
     return std::make_unique<Task>(noise_.begin(request, out), step_);

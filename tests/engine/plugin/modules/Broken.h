@@ -20,7 +20,7 @@ class Flat final : public teren::Generator {
   }
   explicit Flat(const teren::Values& values) : height_(values.real("height")) {}
   teren::HeightRange range() const override { return {height_, 0.0, height_, height_}; }
-  double residual(int, int) const override { return 0.0; }
+  double residual(int, int, double) const override { return 0.0; }
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest&,
                                                teren::HeightView out) const override {
     return std::make_unique<Task>(out, height_);

@@ -38,7 +38,7 @@ class Hostile final : public teren::Generator {
   }
   explicit Hostile(const teren::Values& values) : way_(values.choice("way")), work_(values.choice("work")) {}
   teren::HeightRange range() const override { return hostile::promise(way_); }
-  double residual(int, int) const override { return 0.0; }
+  double residual(int, int, double) const override { return 0.0; }
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest&,
                                                teren::HeightView out) const override {
     if (work_ == "begin-throws") throw std::runtime_error("no\nground");

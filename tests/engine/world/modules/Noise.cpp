@@ -14,7 +14,9 @@ class Noise final : public teren::Generator {
   static std::span<const teren::Parameter> parameters() noexcept { return teren::HashNoise::parameters(); }
   explicit Noise(const teren::Values& values) : noise_(values) {}
   teren::HeightRange range() const override { return noise_.range(); }
-  double residual(int level, int samples) const override { return noise_.residual(level, samples); }
+  double residual(int level, int samples, double spacing) const override {
+    return noise_.residual(level, samples, spacing);
+  }
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest& request,
                                                teren::HeightView out) const override {
     ++begun;

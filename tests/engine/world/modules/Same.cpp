@@ -12,7 +12,9 @@ class SameNoise final : public teren::Generator {
   explicit SameNoise(const teren::Values& values) : noise_(values) {}
 
   teren::HeightRange range() const override { return noise_.range(); }
-  double residual(int level, int samples) const override { return noise_.residual(level, samples); }
+  double residual(int level, int samples, double spacing) const override {
+    return noise_.residual(level, samples, spacing);
+  }
   std::unique_ptr<teren::GenerationTask> begin(const teren::MapRequest& request,
                                                teren::HeightView out) const override {
     teren::MapRequest same = request;
