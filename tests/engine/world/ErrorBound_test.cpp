@@ -28,7 +28,7 @@ WorldDescription randomWorld(RandomSequence& random) {
   const int count = 1 + below(random, 3);
   for (int k = 0; k < count; ++k) {
     LayerDescription layer;
-    layer.generator = below(random, 2) == 0 ? "fault" : "noise";
+    layer.generator = below(random, 2) == 0 ? "fault" : "hash-noise";
     layer.parameters = {{"deviation", std::ldexp(1.0, below(random, 9))}};
     layer.pitch = world.pitch * (1 << below(random, 6));
     layer.samples = (1 << (1 + below(random, 7))) + 1;  // 3 ... 129: coarser and finer than the grid
@@ -106,7 +106,7 @@ TEST(ErrorBound, IsTheSameAllOverASquare) {
 TEST(ErrorBound, IsZeroButForRoundingWhereTheGroundIsFlat) {
   WorldDescription flat;
   LayerDescription layer;
-  layer.generator = "noise";
+  layer.generator = "hash-noise";
   layer.parameters = {{"mean", 10.0}, {"deviation", 0.0}};
   flat.layers = {layer};
   EXPECT_LE(makeTestWorld(flat)->query({0, 0, 0.3, 0.7}).error, 2e-6);

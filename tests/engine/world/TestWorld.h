@@ -1,4 +1,5 @@
-// Worlds for tests: the project's own plugins, and the modules of this room ("noise", "hostile", "liar").
+// Worlds for tests: the project's own plugins, and the modules of this room ("hash-noise", "hostile",
+// "liar").
 #pragma once
 
 #include <cstdint>
@@ -24,9 +25,9 @@ inline const PluginRegistry& testRegistry() {
   return *registry;
 }
 
-/// How many maps the generator "noise" has begun so far.
+/// How many maps the generator "hash-noise" has begun so far.
 inline int noiseMapsBegun() {
-  const std::string file = TEREN_TEST_WORLD_MODULES "/teren-noise.so";
+  const std::string file = TEREN_TEST_WORLD_MODULES "/teren-hash-noise.so";
   void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_NOLOAD);
   if (module == nullptr) return -1;
   const auto count = reinterpret_cast<int (*)()>(dlsym(module, "terenTestMapsBegun"));

@@ -14,7 +14,7 @@ inline LayerDescription noise(double pitch, double deviation, int samples = 65,
                               const std::string& name = "") {
   LayerDescription layer;
   layer.name = name;
-  layer.generator = "noise";
+  layer.generator = "hash-noise";
   layer.parameters = {{"deviation", deviation}};
   layer.pitch = pitch;
   layer.samples = samples;

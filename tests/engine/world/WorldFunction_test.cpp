@@ -91,7 +91,7 @@ TEST(World, IsC1AcrossTheLatticeLinesOfEveryLayer) {
   constexpr std::uint64_t kSeed = 72;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomSequence random(kSeed);
-  for (const char* generator : {"fault", "noise"}) {
+  for (const char* generator : {"fault", "hash-noise"}) {
     for (const bool preserve : {true, false}) {
       const auto world = threeLayers(generator, preserve);
       for (const std::int64_t patches : {128, 8, 1}) {
@@ -107,7 +107,7 @@ TEST(World, IsC1AcrossTheLinesOfSamplesOfEveryLayer) {
   constexpr std::uint64_t kSeed = 73;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomSequence random(kSeed);
-  for (const char* generator : {"fault", "noise"}) {
+  for (const char* generator : {"fault", "hash-noise"}) {
     const auto world = threeLayers(generator, true);
     for (const std::int64_t patches : {128, 8, 1}) {
       SCOPED_TRACE(testing::Message() << generator << ", pitch " << 64 * patches);

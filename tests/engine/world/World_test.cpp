@@ -42,9 +42,10 @@ std::vector<Refused> refusedWorlds() {
                      {"samples is " + std::to_string(samples), "2^k + 1 from 5 to 1025"}});
   }
   for (const int samples : {64, 2, 1, 0, -3, 4097, std::numeric_limits<int>::min()}) {
-    cases.push_back({"layer samples",
-                     [=](WorldDescription& w) { w.layers[1].samples = samples; },
-                     {"layer \"noise\"", "samples is " + std::to_string(samples), "2^k + 1 from 3 to 2049"}});
+    cases.push_back(
+        {"layer samples",
+         [=](WorldDescription& w) { w.layers[1].samples = samples; },
+         {"layer \"hash-noise\"", "samples is " + std::to_string(samples), "2^k + 1 from 3 to 2049"}});
   }
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
                    kInfinity = std::numeric_limits<double>::infinity();
@@ -116,18 +117,18 @@ std::vector<std::string> names(const WorldDescription& description) {
 TEST(World, NamesLayersAfterTheirGeneratorAndNumbersRepetitions) {
   using Names = std::vector<std::string>;
   EXPECT_EQ(names(worldOf({noise(64, 1), fault(64, 1), noise(64, 1), noise(128, 1), fault(64, 1)})),
-            (Names{"noise", "fault", "noise-2", "noise-3", "fault-2"}));
+            (Names{"hash-noise", "fault", "hash-noise-2", "hash-noise-3", "fault-2"}));
   EXPECT_EQ(names(worldOf({noise(64, 1), noise(64, 1, 65, "hills"), noise(64, 1)})),
-            (Names{"noise", "hills", "noise-2"}));
-  EXPECT_EQ(
-      names(worldOf({noise(64, 1), noise(64, 1, 65, "noise"), noise(64, 1, 65, "noise-2"), noise(64, 1)})),
-      (Names{"noise-3", "noise", "noise-2", "noise-4"}));
+            (Names{"hash-noise", "hills", "hash-noise-2"}));
+  EXPECT_EQ(names(worldOf({noise(64, 1), noise(64, 1, 65, "hash-noise"), noise(64, 1, 65, "hash-noise-2"),
+                           noise(64, 1)})),
+            (Names{"hash-noise-3", "hash-noise", "hash-noise-2", "hash-noise-4"}));
 }
 
 TEST(World, NamesAsManyLayersAsThereMayBe) {
   const WorldDescription many =
       worldOf(std::vector<LayerDescription>(WorldDescription::kMostLayers, noise(64.0, 1.0)));
-  EXPECT_EQ(names(many).back(), "noise-256");
+  EXPECT_EQ(names(many).back(), "hash-noise-256");
 }
 
 TEST(World, IsNotReshuffledByALayerInBetween) {

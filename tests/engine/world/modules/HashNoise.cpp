@@ -33,4 +33,4 @@ extern "C" __attribute__((visibility("default"))) int terenTestMapsBegun() {
   return begun;
 }
 
-TEREN_GENERATOR_PLUGIN(Noise, "noise", "1.0", "a random number a sample")
+TEREN_GENERATOR_PLUGIN(Noise, "hash-noise", "1.0", "a random number a sample")
