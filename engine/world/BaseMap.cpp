@@ -12,6 +12,7 @@
 #include "teren/Quote.h"
 
 #include "plugin/Thrown.h"
+#include "world/StepLimit.h"
 
 namespace teren {
 
@@ -52,8 +53,8 @@ bool BaseMapTask::stepPlugins(const Slice& slice) {
     if (const auto overrun = layer_.watch(stage_).finish(slice, start))
       layer_.reportOverrun(stage_, *overrun);
     if (!done) {
-      if (++steps_ < kMaxSteps) return false;
-      fail(culprit(), "is not done after 2^24 steps");
+      if (++steps_ < stepLimit(request_.samples, request_.samples)) return false;
+      fail(culprit(), "is not done after " + std::to_string(steps_) + " steps");
       break;
     }
     current_.reset();

@@ -30,14 +30,10 @@ struct BaseMapKeyHash {
 using BaseMap = std::shared_ptr<const HeightMap>;
 
 /// The making of one base map. Whatever a plugin does - throw, write NaN, leave its promised range, never be
-/// done - the map comes out finite: a failed one is the layer's mean everywhere, and the layer reports one
-/// sentence.
+/// done (see StepLimit.h) - the map comes out finite: a failed one is the layer's mean everywhere, and the
+/// layer reports one sentence.
 class BaseMapTask final : public SlicedTask {
  public:
-  /// A generator or filter that is not done after so many steps is broken. Counted, not timed: the landscape
-  /// must not depend on the machine's speed. A sound one does a row or more in each of its steps.
-  static constexpr std::int64_t kMaxSteps = std::int64_t{1} << 24;
-
   BaseMapTask(const Layer& layer, const BaseMapKey& key);
   bool step(const Slice& slice) override;
 
@@ -57,7 +53,7 @@ class BaseMapTask final : public SlicedTask {
   std::shared_ptr<HeightMap> map_;
   std::unique_ptr<SlicedTask> current_;
   std::size_t stage_ = 0;   // 0: generator, k: filter k - 1
-  std::int64_t steps_ = 0;  // of this stage
+  std::int64_t steps_ = 0;  // of this stage, at most stepLimit()
   bool failed_ = false;
 };
 

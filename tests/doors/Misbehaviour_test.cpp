@@ -31,7 +31,7 @@ std::vector<Misbehaviour> misbehaviours() {
           {"begin-throws", {"threw \"no?ground\""}},
           {"begin-nothing", {"began no task"}},
           {"late", {"threw \"tired\""}},
-          {"endless", {"not done after 2^24 steps"}}};
+          {"endless", {"is not done after"}}};
 }
 
 TEST(Misbehaviour, FailsBakeAndQueryWithOneSentenceAndNoFile) {
@@ -44,7 +44,6 @@ TEST(Misbehaviour, FailsBakeAndQueryWithOneSentenceAndNoFile) {
     Needles named = needles;
     named.push_back("\"never.r32\" was not written");
     expectRefused(bake, 1, named);
-    if (wrong.work == "endless") continue;  // once is enough: sixteen million steps
     bake.insert(bake.end(), {"--workers", "3"});
     expectRefused(bake, 1, wrong.needles);
     for (const Arguments& json : {Arguments(), Arguments{"--json"}}) {
@@ -95,7 +94,6 @@ TEST(ClosedStream, IsNotMistakenForTheFile) {
 TEST(Misbehaviour, OfOneLayerLeavesTheEngineTheOthersAndOneSentence) {
   for (const Misbehaviour& wrong : misbehaviours()) {
     SCOPED_TRACE(wrong.work);
-    if (wrong.work == "endless") continue;  // 16 maps of sixteen million steps
     WorldDescription description;
     description.samples = 9;
     LayerDescription sound, hostile;

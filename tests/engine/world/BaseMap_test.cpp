@@ -13,6 +13,7 @@
 
 #include "tests/engine/world/HashNoise.h"
 #include "tests/engine/world/TestLayer.h"
+#include "world/StepLimit.h"
 
 namespace teren {
 namespace {
@@ -112,7 +113,7 @@ std::vector<Hostile> hostilePlugins() {
       {"writes minus infinity", writes(-kInfinity), "-inf"},
       {"goes above its range", writes(std::nextafter(22.0F, 100.0F)), "22.0000"},
       {"goes below its range", writes(1.5F), "1.5 m"},
-      {"is never done", stepDoes([] { return false; }), "not done"},
+      {"is never done", stepDoes([] { return false; }), "is not done after "},
   };
 }
 
@@ -136,7 +137,7 @@ TEST(BaseMap, OfAHostileGeneratorIsTheMeanEverywhereAndOneMessageIsKept) {
     const Layer layer =
         makeTestLayer({.layerBits = 3}, std::make_shared<HostileGenerator>(hostile.begin), {}, messages);
     expectMeanEverywhere(*finished(layer, {0, 0, 3, -4}), 17);
-    if (hostile.name != "is never done") expectMeanEverywhere(*finished(layer, {0, 1, 3, -4}), 9);
+    expectMeanEverywhere(*finished(layer, {0, 1, 3, -4}), 9);
     const std::vector<std::string> said = messages->take();
     ASSERT_EQ(said.size(), 1U);
     EXPECT_NE(said[0].find("\"test\""), std::string::npos) << said[0];
@@ -159,6 +160,43 @@ TEST(BaseMap, OfAHostileFilterIsTheMeanEverywhereAndOneMessageIsKept) {
     ASSERT_EQ(said.size(), 1U);
     EXPECT_NE(said[0].find(hostile.needle), std::string::npos) << said[0];
   }
+}
+
+TEST(BaseMap, GivesUpATaskAfterTheStepsThatAMapOfItsSizeMayTake) {
+  for (const int layerBits : {0, 3, 5}) {
+    std::int64_t steps = 0;
+    const auto messages = std::make_shared<MessageBox>();
+    const auto counting = std::make_shared<HostileGenerator>(stepDoes([&steps] {
+      ++steps;
+      return false;
+    }));
+    const Layer layer = makeTestLayer({.layerBits = layerBits}, counting, {}, messages);
+    const int samples = (2 << layerBits) + 1;
+    expectMeanEverywhere(*finished(layer, {0, 0, 0, 0}), samples);
+    EXPECT_EQ(steps, stepLimit(samples, samples));
+    EXPECT_NE(messages->take().at(0).find("is not done after " + std::to_string(steps) + " steps"),
+              std::string::npos);
+  }
+}
+
+TEST(BaseMap, CountsTheStepsOfEachOfItsPluginsByItself) {
+  const auto lasts = [](std::int64_t most) {
+    return [most](const MapRequest& request, HeightView map) {
+      return std::make_unique<Does>([=, steps = std::int64_t{0}]() mutable {
+        for (int y = 0; y < map.rows(); ++y) std::fill_n(map.row(y), map.columns(), 15.0F);
+        return ++steps == stepLimit(request.samples, request.samples) + most;
+      });
+    };
+  };
+  const auto messages = std::make_shared<MessageBox>();
+  const Layer layer = makeTestLayer(
+      {.layerBits = 0}, std::make_shared<HostileGenerator>(lasts(0)),
+      {std::make_shared<HostileFilter>(lasts(0)), std::make_shared<HostileFilter>(lasts(0))}, messages);
+  EXPECT_EQ((*finished(layer, {0, 0, 0, 0}))(1, 1), 15.0F);
+  EXPECT_TRUE(messages->take().empty());
+  const Layer endless =
+      makeTestLayer({.layerBits = 0}, std::make_shared<HostileGenerator>(lasts(1)), {}, messages);
+  expectMeanEverywhere(*finished(endless, {0, 0, 0, 0}), 3);
 }
 
 TEST(BaseMap, KeepsHeightsAtTheVeryEndsOfItsRange) {
