@@ -1,17 +1,12 @@
 #include "world/BaseMap.h"
 
-#include <cmath>
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "teren/Hash.h"
 #include "teren/HeightMapOperations.h"
-#include "teren/Parameter.h"
-#include "teren/Quote.h"
 
-#include "plugin/Thrown.h"
 #include "world/StepLimit.h"
 
 namespace teren {
@@ -24,69 +19,44 @@ std::size_t BaseMapKeyHash::operator()(const BaseMapKey& key) const noexcept {
 BaseMapTask::BaseMapTask(const Layer& layer, const BaseMapKey& key)
     : layer_(layer),
       request_(layer.request(key.i, key.j, key.level)),
-      map_(std::make_shared<HeightMap>(request_.samples, request_.samples)) {}
+      map_(std::make_shared<HeightMap>(request_.samples, request_.samples)),
+      work_(workOf(0)) {}
+
+PluginWork BaseMapTask::workOf(std::size_t stage) {
+  return {layer_, stage, stepLimit(request_.samples, request_.samples), [this, stage] {
+            return stage == 0 ? layer_.generator().begin(request_, map_->view())
+                              : layer_.filters()[stage - 1]->begin(request_, map_->view());
+          }};
+}
 
 bool BaseMapTask::step(const Slice& slice) {
-  try {
-    if (!stepPlugins(slice)) return false;
-  } catch (const std::exception& problem) {
-    fail(culprit(), "threw " + inQuotes(textOf(problem)));
-  } catch (...) {
-    fail(culprit(), "threw something that is no std::exception");
-  }
+  if (!stepPlugins(slice)) return false;
   if (!failed_) check();
   return true;
 }
 
 bool BaseMapTask::stepPlugins(const Slice& slice) {
-  while (!failed_ && stage_ <= layer_.filters().size()) {
-    const StepWatch::Start start = StepWatch::start(slice);
-    if (!current_) {
-      current_ = stage_ == 0 ? layer_.generator().begin(request_, map_->view())
-                             : layer_.filters()[stage_ - 1]->begin(request_, map_->view());
-    }
-    if (!current_) {
-      fail(culprit(), "began no task");
-      break;
-    }
-    const bool done = current_->step(slice);
-    if (const auto overrun = layer_.watch(stage_).finish(slice, start))
-      layer_.reportOverrun(stage_, *overrun);
-    if (!done) {
-      if (++steps_ < stepLimit(request_.samples, request_.samples)) return false;
-      fail(culprit(), "is not done after " + std::to_string(steps_) + " steps");
-      break;
-    }
-    current_.reset();
-    steps_ = 0;
-    ++stage_;
-    if (slice.over() && stage_ <= layer_.filters().size()) return false;
+  const std::size_t last = layer_.filters().size();
+  while (true) {
+    const PluginWork::State state = work_.step(slice);
+    if (state == PluginWork::State::working) return false;
+    if (state == PluginWork::State::failed) fail(work_.failure());
+    if (failed_ || stage_ == last) return true;
+    work_ = workOf(++stage_);
+    if (slice.over()) return false;
   }
-  return true;
 }
 
 void BaseMapTask::check() {
-  const HeightRange& range = layer_.range();
   for (const float height : map_->samples()) {
-    if (std::isfinite(height) && height >= range.min && height <= range.max) continue;
-    std::string all = layer_.pluginIds().size() == 1 ? "plugin " : "its plugins ";
-    for (const std::string& id : layer_.pluginIds()) all += (all.back() == ' ' ? "" : ", ") + inQuotes(id);
-    fail(all, "wrote the height " + numberText(height) + " m, outside the promised range of " +
-                  numberText(range.min) + " to " + numberText(range.max) + " m");
-    return;
+    if (!layer_.accepts(height)) return fail(layer_.refusal(height));
   }
 }
 
-std::string BaseMapTask::culprit() const {
-  return "plugin " + inQuotes(layer_.pluginIds()[stage_]);
-}
-
-void BaseMapTask::fail(const std::string& who, const std::string& what) {
+void BaseMapTask::fail(const std::string& cause) {
   failed_ = true;
-  current_.reset();
   fillHeights(map_->view(), static_cast<float>(layer_.range().mean));
-  layer_.reportFailure("layer " + inQuotes(layer_.name()) + ": " + who + " " + what + " at lattice point (" +
-                       std::to_string(request_.i) + ", " + std::to_string(request_.j) + ")");
+  layer_.reportFailure(cause, request_.i, request_.j);
 }
 
 BaseMap BaseMapStore::find(const BaseMapKey& key) {

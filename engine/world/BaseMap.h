@@ -13,6 +13,7 @@
 #include "teren/Slice.h"
 
 #include "world/Layer.h"
+#include "world/PluginWork.h"
 
 namespace teren {
 
@@ -41,19 +42,17 @@ class BaseMapTask final : public SlicedTask {
   BaseMap result() const { return map_; }
 
  private:
+  PluginWork workOf(std::size_t stage);
   /// True when all plugins are done, or one has failed.
   bool stepPlugins(const Slice& slice);
   void check();
-  /// `who` did `what`.
-  void fail(const std::string& who, const std::string& what);
-  std::string culprit() const;  // the plugin of this stage
+  void fail(const std::string& cause);
 
   const Layer& layer_;
   MapRequest request_;
   std::shared_ptr<HeightMap> map_;
-  std::unique_ptr<SlicedTask> current_;
-  std::size_t stage_ = 0;   // 0: generator, k: filter k - 1
-  std::int64_t steps_ = 0;  // of this stage, at most stepLimit()
+  std::size_t stage_ = 0;  // 0: generator, k: filter k - 1
+  PluginWork work_;        // of this stage
   bool failed_ = false;
 };
 

@@ -88,4 +88,16 @@ MapRequest Layer::request(std::int64_t i, std::int64_t j, int mapLevel) const no
   return request;
 }
 
+std::string Layer::refusal(float height) const {
+  std::string all = plugins_.ids.size() == 1 ? "plugin " : "its plugins ";
+  for (const std::string& id : plugins_.ids) all += (all.back() == ' ' ? "" : ", ") + inQuotes(id);
+  return all + " wrote the height " + numberText(height) + " m, outside the promised range of " +
+         numberText(range_.min) + " to " + numberText(range_.max) + " m";
+}
+
+void Layer::reportFailure(const std::string& cause, std::int64_t i, std::int64_t j) const {
+  messages_->postFailure(name_, "layer " + inQuotes(name_) + ": " + cause + " at lattice point (" +
+                                    std::to_string(i) + ", " + std::to_string(j) + ")");
+}
+
 }  // namespace teren

@@ -1,6 +1,7 @@
 // One layer of the world: a generator with its filters, lattice and base maps.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -82,8 +83,14 @@ class Layer {
   /// Request for the base map at lattice point (i, j).
   MapRequest request(std::int64_t i, std::int64_t j, int mapLevel) const noexcept;
 
-  /// A plugin failed, so the mean stands in for a map; each layer is told of once.
-  void reportFailure(const std::string& cause) const { messages_->postFailure(name_, cause); }
+  /// The door: whether a height is finite and inside the promised range.
+  bool accepts(float height) const noexcept {
+    return std::isfinite(height) && height >= range_.min && height <= range_.max;
+  }
+  /// "plugin "x" wrote the height ..."
+  std::string refusal(float height) const;
+  /// The plugin that `cause` begins with failed there, so the mean stands in; each layer is told of once.
+  void reportFailure(const std::string& cause, std::int64_t i, std::int64_t j) const;
   /// The plugin of a stage broke the rule of StepWatch; each of a layer's plugins is told of once.
   void reportOverrun(std::size_t stage, const Overrun& overrun) const;
 
