@@ -59,13 +59,16 @@ void shuffle(std::vector<NodeKey>& nodes, std::uint64_t seed) {
   }
 }
 
-/// Copies the part of the node that lies in the region.
+/// Copies the part of the node that lies in the region. A line that two nodes share is the south or west
+/// one's, as in meshes: their bits are the same, but where a plugin fails for one of them.
 void place(const HeightMap& node, const NodeKey& key, const Extent& columns, const Extent& rows,
            HeightMap& target) {
-  const std::int64_t n = node.columns() - 1;
+  const int side = node.columns(), n = side - 1;
+  const std::int64_t column = key.i * n - columns.first, row = key.j * n - rows.first;
+  const int west = column > 0 ? 1 : 0, south = row > 0 ? 1 : 0;  // the first of its own
   const MatchedParts parts =
-      matchedParts(node.view(), target.view(), static_cast<int>(key.i * n - columns.first),
-                   static_cast<int>(key.j * n - rows.first));
+      matchedParts(node.view(), {west, south, side - west, side - south}, target.view(),
+                   static_cast<int>(column) + west, static_cast<int>(row) + south);
   copyHeights(parts.source, parts.target);
 }
 

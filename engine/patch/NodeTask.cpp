@@ -16,22 +16,26 @@ NodeTask::NodeTask(const World& world, const NodeKey& key, BaseMapStore& store)
 }
 
 std::size_t NodeTask::mostBytes(const World& world, int level) noexcept {
+  const auto nodeSide = static_cast<std::size_t>(world.intervals() + 1);
   std::size_t maps = 0;
   for (const Layer& layer : world.layers()) {
     if (level > layer.cutLevel()) continue;
+    if (layer.field() != nullptr) {
+      maps = std::max(maps, nodeSide * nodeSide * sizeof(float) + sizeof(FieldTask));
+      continue;
+    }
     const std::size_t cells = std::size_t{1} << std::max(0, level - layer.pitchShift());
     const auto side = static_cast<std::size_t>(layer.mapSamples(layer.mapLevel(level)));
     const std::size_t bytes = side * side * sizeof(float) + sizeof(HeightMap);
     maps = std::max(maps, ((cells + 1) * (cells + 1) + 1) * bytes);
   }
-  const auto side = static_cast<std::size_t>(world.intervals() + 1);
-  return maps + side * side * (sizeof(float) + sizeof(double)) + sizeof(NodeTask);
+  return maps + nodeSide * nodeSide * (sizeof(float) + sizeof(double)) + sizeof(NodeTask);
 }
 
 bool NodeTask::step(const Slice& slice) {
   for (; layer_ < world_.layers().size(); ++layer_) {
     if (!planned_) beginLayer();
-    if (!stepMaps(slice) || !stepRows(slice)) return false;
+    if (!(field_ ? stepField(slice) : stepMaps(slice) && stepRows(slice))) return false;
     planned_ = false;
     if (slice.over()) {
       ++layer_;
@@ -48,19 +52,45 @@ bool NodeTask::step(const Slice& slice) {
 void NodeTask::beginLayer() {
   const Layer& layer = world_.layers()[layer_];
   planned_ = true;
+  sampled_ = false;
+  field_.reset();
   plan_ = {};
+  row_ = 0;
   if (key_.level > layer.cutLevel()) {
     for (double& sum : sums_) sum += layer.range().mean;
     return;
   }
   const std::int64_t n = world_.intervals();
   const std::int64_t stride = std::int64_t{1} << key_.level;
+  if (layer.field() != nullptr) {
+    const Position corner{key_.i * stride, key_.j * stride};
+    const int side = static_cast<int>(n) + 1;
+    field_ = std::make_unique<FieldTask>(layer, layer.fieldRequest(corner, key_.level, side, side),
+                                         heights_.view());
+    return;
+  }
   plan_.layer = static_cast<int>(layer_);
   plan_.mapLevel = layer.mapLevel(key_.level);
   plan_.columns = cellRuns(layer, plan_.mapLevel, key_.i * n * stride, stride, static_cast<int>(n) + 1);
   plan_.rows = cellRuns(layer, plan_.mapLevel, key_.j * n * stride, stride, static_cast<int>(n) + 1);
   columnRun_ = rowRun_ = 0;
-  row_ = 0;
+}
+
+bool NodeTask::stepField(const Slice& slice) {
+  if (!sampled_) {
+    sampled_ = field_->step(slice);
+    if (!sampled_ || slice.over()) return false;
+  }
+  const auto side = static_cast<std::size_t>(heights_.columns());
+  while (row_ < heights_.rows()) {
+    const float* const heights = heights_.view().row(row_);
+    double* const sums = sums_.data() + static_cast<std::size_t>(row_) * side;
+    for (std::size_t column = 0; column < side; ++column)
+      sums[column] += static_cast<double>(heights[column]);
+    ++row_;
+    if (slice.over()) break;
+  }
+  return row_ == heights_.rows();
 }
 
 bool NodeTask::stepMaps(const Slice& slice) {

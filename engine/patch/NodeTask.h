@@ -1,4 +1,4 @@
-// The making of a node's heights: the base maps it needs, then the blended sum of the layers.
+// The making of a node's heights: the base maps and fields it needs, summed over the layers.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +10,23 @@
 
 #include "patch/NodeKey.h"
 #include "world/BaseMap.h"
+#include "world/FieldTask.h"
 #include "world/LayerSampler.h"
 
 namespace teren {
 
-/// Heights of a node at its (n + 1)^2 samples, borders included, in slices of base-map steps and blended
-/// rows. Needs exactly the base maps whose weights do not vanish inside the node. Heights are summed in
-/// double, layer by layer in the world's order, and rounded to float once. `world` and `store` must outlive
-/// it.
+/// Heights of a node at its (n + 1)^2 samples, borders included, in slices of plugins' steps and of rows.
+/// Needs exactly the base maps whose weights do not vanish inside the node; of a layer that is a field, the
+/// node's samples. Heights are summed in double, layer by layer in the world's order, and rounded to float
+/// once. `world` and `store` must outlive it.
 class NodeTask final : public SlicedTask {
  public:
   NodeTask(const World& world, const NodeKey& key, BaseMapStore& store);
   bool step(const Slice& slice) override;
 
   /// About the most bytes such a task holds at once, the base maps of the layer it is at included (they are
-  /// mostly the store's too); a plugin's own scratch is taken to be as large as one map.
+  /// mostly the store's too); a plugin's own scratch is taken to be as large as one map, or as a field's
+  /// samples.
   static std::size_t mostBytes(const World& world, int level) noexcept;
 
   const NodeKey& key() const noexcept { return key_; }
@@ -40,6 +42,7 @@ class NodeTask final : public SlicedTask {
     std::vector<CellRun> columns, rows;
     std::vector<BaseMap> maps;  // rows of (columns.size() + 1), south to north
   };
+  bool stepField(const Slice& slice);
   bool stepMaps(const Slice& slice);
   bool stepRows(const Slice& slice);
   void beginLayer();
@@ -53,10 +56,12 @@ class NodeTask final : public SlicedTask {
 
   std::size_t layer_ = 0;
   bool planned_ = false;
+  std::unique_ptr<FieldTask> field_;  // writes into heights_, which nobody reads before all layers are summed
+  bool sampled_ = false;              // the field is
   LayerPlan plan_;
   std::unique_ptr<BaseMapTask> mapTask_;
   std::size_t columnRun_ = 0, rowRun_ = 0;
-  int row_ = 0;
+  int row_ = 0;  // of the run, or of the node's samples of a field
   std::unique_ptr<CellBlock> block_;
 };
 

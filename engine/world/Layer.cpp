@@ -88,6 +88,32 @@ MapRequest Layer::request(std::int64_t i, std::int64_t j, int mapLevel) const no
   return request;
 }
 
+double acrossCell(std::int64_t patch, double fraction, int pitchShift) noexcept {
+  const std::int64_t mask = (std::int64_t{1} << pitchShift) - 1;
+  return (static_cast<double>(patch & mask) + fraction) / static_cast<double>(std::int64_t{1} << pitchShift);
+}
+
+FieldRequest Layer::fieldRequest(const Position& first, int level, int columns, int rows) const noexcept {
+  FieldRequest request;
+  const auto place = [this](std::int64_t patch, double fraction, std::int64_t& point, double& offset) {
+    point = patch >> pitchShift_;
+    offset = acrossCell(patch, fraction, pitchShift_);
+    if (offset < 1.0) return;
+    offset = 0.0;  // a place so near to the next lattice line that it was rounded to it
+    ++point;
+  };
+  place(first.i, first.u, request.i, request.u);
+  place(first.j, first.v, request.j, request.v);
+  request.seed = layerSeed(worldSeed_, name_);
+  request.pitch = pitch_;
+  request.spacing = pitch_ / static_cast<double>(std::int64_t{1} << cellBits()) *
+                    static_cast<double>(std::int64_t{1} << level);
+  request.columns = columns;
+  request.rows = rows;
+  request.level = level;
+  return request;
+}
+
 std::string Layer::refusal(float height) const {
   std::string all = plugins_.ids.size() == 1 ? "plugin " : "its plugins ";
   for (const std::string& id : plugins_.ids) all += (all.back() == ' ' ? "" : ", ") + inQuotes(id);

@@ -1,4 +1,4 @@
-// One layer of the world: a generator with its filters, lattice and base maps.
+// One layer of the world: a generator with its filters and lattice, and what its plugins are asked for.
 #pragma once
 
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "teren/ContinuousGenerator.h"
 #include "teren/World.h"
 
 #include "world/StepWatch.h"
@@ -35,12 +36,19 @@ class MessageBox {
   std::optional<std::string> failure_;
 };
 
-/// What makes a layer's maps. `ids` are the plugins', the generator's first, then the filters', for messages.
+/// What makes a layer. `ids` are the plugins', the generator's first, then the filters', for messages.
 struct LayerPlugins {
   std::shared_ptr<const Generator> generator;
   std::vector<std::shared_ptr<const Filter>> filters;
   std::vector<std::string> ids;
+  /// The generator, where it is continuous and no filters follow: then it makes no maps, but a field.
+  const ContinuousGenerator* field = nullptr;
+  double fieldError = 0.0;  ///< [m] its ContinuousGenerator::fieldError at the spacing of level 0
 };
+
+/// How far across its cell of a lattice of 2^pitchShift patches a pitch a place lies, in [0, 1]; exact where
+/// the place is a sample of the world's grid.
+double acrossCell(std::int64_t patch, double fraction, int pitchShift) noexcept;
 
 /// Immutable. Distances along its lattice are counted in level-0 samples of the world, whole numbers.
 class Layer {
@@ -58,6 +66,10 @@ class Layer {
   const Generator& generator() const noexcept { return *plugins_.generator; }
   const std::vector<std::shared_ptr<const Filter>>& filters() const noexcept { return plugins_.filters; }
   const std::vector<std::string>& pluginIds() const noexcept { return plugins_.ids; }
+  /// Not null: the layer is this field, its samples are drawn as they are, and nothing said of maps concerns
+  /// it.
+  const ContinuousGenerator* field() const noexcept { return plugins_.field; }
+  double fieldError() const noexcept { return plugins_.fieldError; }
   /// Of the generator (stage 0) or of filter stage - 1. Shared by all tasks: watching changes no layer.
   StepWatch& watch(std::size_t stage) const noexcept { return (*watches_)[stage]; }
   /// After the filters.
@@ -82,6 +94,10 @@ class Layer {
 
   /// Request for the base map at lattice point (i, j).
   MapRequest request(std::int64_t i, std::int64_t j, int mapLevel) const noexcept;
+
+  /// Request for a field's samples 2^level apart in the world's grid, the first one there. Exact for
+  /// positions on the grid of level 0.
+  FieldRequest fieldRequest(const Position& first, int level, int columns, int rows) const noexcept;
 
   /// The door: whether a height is finite and inside the promised range.
   bool accepts(float height) const noexcept {

@@ -13,6 +13,7 @@
 #include "plugin/Thrown.h"
 #include "world/BaseMap.h"
 #include "world/ErrorBound.h"
+#include "world/FieldTask.h"
 #include "world/Layer.h"
 #include "world/LayerSampler.h"
 
@@ -57,19 +58,43 @@ Result<void> checkRange(const HeightRange& range, const std::string& plugin) {
                numberText(range.max)};
 }
 
-/// What `promise` of a plugin says, checked; a plugin that throws instead is refused too.
+/// What a plugin says when asked for `what`; one that throws instead is refused.
 template <class Promise>
-Result<HeightRange> promisedRange(const Promise& promise, const std::string& plugin) {
+auto promised(const Promise& promise, const std::string& plugin, const char* what)
+    -> Result<decltype(promise())> {
   std::string thrown = "something that is no std::exception";
   try {
-    const HeightRange range = promise();
-    if (const Result<void> sane = checkRange(range, plugin); !sane) return sane.error();
-    return range;
+    return promise();
   } catch (const std::exception& problem) {
     thrown = inQuotes(textOf(problem));
   } catch (...) {
   }
-  return Error{plugin + " threw " + thrown + " when asked for its range"};
+  return Error{plugin + " threw " + thrown + " when asked for its " + what};
+}
+
+template <class Promise>
+Result<HeightRange> promisedRange(const Promise& promise, const std::string& plugin) {
+  const Result<HeightRange> range = promised(promise, plugin, "range");
+  if (!range) return range;
+  if (const Result<void> sane = checkRange(*range, plugin); !sane) return sane.error();
+  return range;
+}
+
+/// Notes the field of a generator that is continuous, and how far triangles through its samples may lie from
+/// it.
+Result<void> takeField(LayerPlugins& plugins, double spacing, const std::string& plugin) {
+  const auto field = promised([&] { return asContinuous(*plugins.generator); }, plugin, "traits");
+  if (!field) return field.error();
+  if (*field == nullptr) return {};
+  const Result<double> error = promised([&] { return (*field)->fieldError(spacing); }, plugin, "error");
+  if (!error) return error.error();
+  if (!(*error >= 0.0 && *error <= kMaxHeight)) {  // NaN too
+    return Error{plugin + " promises an error of " + numberText(*error) + " m for samples " +
+                 numberText(spacing) + " m apart, expected 0 to 1e30"};
+  }
+  plugins.field = *field;
+  plugins.fieldError = *error;
+  return {};
 }
 
 /// Gives unnamed layers their default names, in order; refuses two layers of one name.
@@ -104,7 +129,9 @@ Result<Layer> makeLayer(const LayerDescription& description, const WorldDescript
   Result<HeightRange> range =
       promisedRange([&] { return (*generator)->range(); }, where + inQuotes(description.generator));
   if (!range) return range.error();
-  LayerPlugins plugins{std::move(*generator), {}, {description.generator}};
+  LayerPlugins plugins;
+  plugins.generator = std::move(*generator);
+  plugins.ids = {description.generator};
   for (const FilterDescription& wanted : description.filters) {
     Result<std::shared_ptr<const Filter>> filter = registry.makeFilter(wanted.filter, wanted.parameters);
     if (!filter) return Error{where + filter.error().message};
@@ -112,6 +139,11 @@ Result<Layer> makeLayer(const LayerDescription& description, const WorldDescript
     if (!range) return range.error();
     plugins.filters.push_back(std::move(*filter));
     plugins.ids.push_back(wanted.filter);
+  }
+  if (plugins.filters.empty()) {
+    const double spacing = world.pitch / static_cast<double>(1 << worldBits);
+    const Result<void> taken = takeField(plugins, spacing, where + inQuotes(description.generator));
+    if (!taken) return taken.error();
   }
   return Layer(description.name, world.seed, world.pitch, worldBits, *shift, *bits - 1, description.blend,
                description.preserveVariance, std::move(plugins), *range, messages);
@@ -136,17 +168,6 @@ CellMaps finishedMaps(const Layer& layer, int index, std::int64_t i, std::int64_
   return maps;
 }
 
-/// How many patches lie along a layer's pitch.
-double patchesAlong(int pitchShift) {
-  return static_cast<double>(std::int64_t{1} << pitchShift);
-}
-
-/// How far across its cell of a layer a place lies; exact where the position is a sample of the world's grid.
-double across(std::int64_t patch, double fraction, int pitchShift) {
-  const std::int64_t mask = (std::int64_t{1} << pitchShift) - 1;
-  return (static_cast<double>(patch & mask) + fraction) / patchesAlong(pitchShift);
-}
-
 /// The finest maps of the cell of a layer that a position lies in.
 CellMaps mapsAround(const Layer& layer, int index, const Position& position, BaseMapStore& store) {
   const int shift = layer.pitchShift();
@@ -156,8 +177,63 @@ CellMaps mapsAround(const Layer& layer, int index, const Position& position, Bas
 /// The layer at (u, v) in [0, 1] of the position's patch, given those maps.
 double heightInPatch(const Layer& layer, const CellMaps& maps, const Position& position, double u, double v) {
   const int shift = layer.pitchShift();
-  return layerHeight(layer, linePlace(layer, 0, across(position.i, u, shift)),
-                     linePlace(layer, 0, across(position.j, v, shift)), maps);
+  return layerHeight(layer, linePlace(layer, 0, acrossCell(position.i, u, shift)),
+                     linePlace(layer, 0, acrossCell(position.j, v, shift)), maps);
+}
+
+/// A square of level-0 samples of a layer that is a field.
+template <int kSide>
+struct FieldSamples {
+  std::array<float, kSide * kSide> heights{};
+  bool sound = false;  ///< the mean stands in for none of them
+
+  FieldSamples(const Layer& layer, const Position& first) {
+    FieldTask task(layer, layer.fieldRequest(first, 0, kSide, kSide), {heights.data(), kSide, kSide});
+    while (!task.step(Slice::unlimited())) {
+    }
+    sound = !task.failed();
+  }
+};
+
+/// What a query asks of each layer.
+struct SquareSums {
+  double height = 0.0;  ///< at the position
+  std::array<double, 4>
+      corners{};       ///< of its square of the level-0 grid: south-west, -east, north-west, -east
+  double error = 0.0;  ///< bound on |height - triangles through the corners|
+};
+
+/// `southWest` is the corner of the square that the position lies in.
+void addField(const Layer& layer, const Position& position, const Position& southWest, SquareSums& sums) {
+  const FieldSamples<2> square(layer, southWest);
+  const FieldSamples<1> point(layer, position);
+  double largest = 0.0;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const double height = static_cast<double>(square.heights[corner]);
+    sums.corners[corner] += height;
+    largest = std::max(largest, std::fabs(height));
+  }
+  sums.height += static_cast<double>(point.heights[0]);
+  // Nothing leaves the range; where the mean stands in for a sample, that alone is known.
+  double error = layer.range().max - layer.range().min;
+  if (square.sound && point.sound) error = std::min(error, layer.fieldError());
+  sums.error += error + (2.0 * largest + error) * 0x1p-24;  // samples are floats, between the corners too
+}
+
+/// Likewise.
+void addMaps(const Layer& layer, const CellMaps& maps, const Position& position, const Position& southWest,
+             double side, SquareSums& sums) {
+  // The square's corners lie in the same cell of the layer, or on its border, where the cell beyond gives the
+  // same bits: the maps around the position serve for all.
+  for (int corner = 0; corner < 4; ++corner) {
+    sums.corners[static_cast<std::size_t>(corner)] += heightInPatch(
+        layer, maps, position, southWest.u + (corner & 1) * side, southWest.v + (corner >> 1) * side);
+  }
+  sums.height += heightInPatch(layer, maps, position, position.u, position.v);
+  const int shift = layer.pitchShift();
+  sums.error += triangleError(layer, maps, acrossCell(southWest.i, southWest.u, shift),
+                              acrossCell(southWest.j, southWest.v, shift),
+                              side / static_cast<double>(std::int64_t{1} << shift));
 }
 
 }  // namespace
@@ -227,8 +303,13 @@ double World::deviation() const noexcept {
 double World::height(const Position& position) const {
   double sum = 0.0;
   for (std::size_t index = 0; index < layers_.size(); ++index) {
-    const CellMaps maps = mapsAround(layers_[index], static_cast<int>(index), position, *queryMaps_);
-    sum += heightInPatch(layers_[index], maps, position, position.u, position.v);
+    const Layer& layer = layers_[index];
+    if (layer.field() != nullptr) {
+      sum += static_cast<double>(FieldSamples<1>(layer, position).heights[0]);
+      continue;
+    }
+    const CellMaps maps = mapsAround(layer, static_cast<int>(index), position, *queryMaps_);
+    sum += heightInPatch(layer, maps, position, position.u, position.v);
   }
   return sum;
 }
@@ -236,33 +317,29 @@ double World::height(const Position& position) const {
 SurfacePoint World::query(const Position& position) const {
   const double n = intervals_;
   const double x = position.u * n, y = position.v * n;
-  const double column = std::floor(x), row = std::floor(y);
-  // The square's corners lie in the same cell of every layer, or on its border, where the cell beyond gives
-  // the same bits: the maps around the position serve for all.
-  std::array<double, 4> corners{};
-  SurfacePoint point;
+  const Position southWest{position.i, position.j, std::floor(x) / n, std::floor(y) / n};
+  SquareSums sums;
   for (std::size_t index = 0; index < layers_.size(); ++index) {
     const Layer& layer = layers_[index];
-    const CellMaps maps = mapsAround(layer, static_cast<int>(index), position, *queryMaps_);
-    for (int corner = 0; corner < 4; ++corner) {
-      corners[static_cast<std::size_t>(corner)] +=
-          heightInPatch(layer, maps, position, (column + (corner & 1)) / n, (row + (corner >> 1)) / n);
+    if (layer.field() != nullptr) {
+      addField(layer, position, southWest, sums);
+    } else {
+      const CellMaps maps = mapsAround(layer, static_cast<int>(index), position, *queryMaps_);
+      addMaps(layer, maps, position, southWest, 1.0 / n, sums);
     }
-    point.height += heightInPatch(layer, maps, position, position.u, position.v);
-    const int shift = layer.pitchShift();
-    point.error += triangleError(layer, maps, across(position.i, column / n, shift),
-                                 across(position.j, row / n, shift), 1.0 / (n * patchesAlong(shift)));
   }
   const auto drawn = [&](std::size_t corner) {
-    return static_cast<double>(static_cast<float>(corners[corner]));
+    return static_cast<double>(static_cast<float>(sums.corners[corner]));
   };
   const SquareHeights heights{drawn(0), drawn(1), drawn(2), drawn(3)};
-  const TrianglePoint triangle = sampleTriangle(heights, x - column, y - row);
+  const TrianglePoint triangle = sampleTriangle(heights, x - std::floor(x), y - std::floor(y));
+  SurfacePoint point;
+  point.height = sums.height;
   point.drawn = triangle.height;
   point.normal = faceNormal(triangle, spacing(0));
   const double largest = std::max({std::fabs(heights.southWest), std::fabs(heights.southEast),
                                    std::fabs(heights.northWest), std::fabs(heights.northEast), 1.0});
-  point.error += largest * 0x1p-23;  // drawn heights are floats; sums in double round far less
+  point.error = sums.error + largest * 0x1p-23;  // drawn heights are floats; sums in double round far less
   return point;
 }
 

@@ -42,11 +42,15 @@ constexpr std::uint64_t hashText(std::string_view text) noexcept {
   return hash.value();
 }
 
+/// The seed of a layer: a pure function of the world's seed and the layer's name.
+constexpr std::uint64_t layerSeed(std::uint64_t worldSeed, std::string_view layerName) noexcept {
+  return hashWith(mixBits(worldSeed), hashText(layerName));
+}
+
 /// The seed of one base map: a pure function of the world's seed, the layer's name and the lattice point.
 constexpr std::uint64_t mapSeed(std::uint64_t worldSeed, std::string_view layerName, std::int64_t i,
                                 std::int64_t j) noexcept {
-  std::uint64_t hash = hashWith(mixBits(worldSeed), hashText(layerName));
-  hash = hashWith(hash, static_cast<std::uint64_t>(i));
+  const std::uint64_t hash = hashWith(layerSeed(worldSeed, layerName), static_cast<std::uint64_t>(i));
   return hashWith(hash, static_cast<std::uint64_t>(j));
 }
 

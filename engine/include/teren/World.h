@@ -29,6 +29,8 @@ struct FilterDescription {
   std::vector<Values::Entry> parameters;
 };
 
+/// Where the generator is continuous (ContinuousGenerator.h) and no filters follow, the layer is its field:
+/// `samples`, `blend` and `preserveVariance` are about base maps and do not concern it.
 struct LayerDescription {
   std::string name;       ///< what is hashed; empty: the generator's id, with -2, -3 ... on repetition
   std::string generator;  ///< plugin id
@@ -86,9 +88,10 @@ class World {
 
   /// Law 0: the landscape's height [m], a pure function of the description and the position. Makes the base
   /// maps it needs and keeps the latest (at most kQueryBytes) for the next query; a first query costs up to
-  /// four maps per layer, later ones nearby about a microsecond per layer. Where the maps around one place
-  /// are more than kQueryBytes (four of 2049 samples a side are 67 MB) those that do not fit are made anew
-  /// each time; a layer's four are held while it is asked, so that any world can be.
+  /// four maps per layer, later ones nearby about a microsecond per layer; a layer that is a field is asked
+  /// for one sample, a float, and keeps nothing. Where the maps around one place are more than kQueryBytes
+  /// (four of 2049 samples a side are 67 MB) those that do not fit are made anew each time; a layer's four
+  /// are held while it is asked, so that any world can be.
   double height(const Position& position) const;
   static constexpr std::size_t kQueryBytes = std::size_t{64} << 20;
 

@@ -14,10 +14,12 @@
 #include "patch/MeshTask.h"
 #include "patch/NodeTask.h"
 #include "stream/NodeStore.h"
+#include "tests/engine/world/TestWorld.h"
 
 namespace teren {
 namespace {
 
+/// Two layers of maps and one that is a field.
 std::shared_ptr<const World> threeLayers(int samples, std::uint64_t seed = 7) {
   WorldDescription description;
   description.seed = seed;
@@ -29,9 +31,9 @@ std::shared_ptr<const World> threeLayers(int samples, std::uint64_t seed = 7) {
     layer.pitch = pitch;
     description.layers.push_back(layer);
   }
-  auto world = World::create(description, *PluginRegistry::standard());
-  EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().message);
-  return *world;
+  description.layers[1].generator = "value-noise";
+  description.layers[1].parameters = {{"height", 80.0}, {"cell", 256.0}};
+  return makeTestWorld(description);
 }
 
 using Place = std::pair<std::int64_t, std::int64_t>;  // column, row in level-0 samples

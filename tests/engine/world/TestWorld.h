@@ -1,5 +1,5 @@
-// Worlds for tests: the project's own plugins, and the modules of this room ("hash-noise", "hostile",
-// "liar").
+// Worlds for tests: the project's own plugins, and the modules of this room ("hash-noise", "value-noise",
+// "hostile", ...).
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // HashNoise as a module, for worlds that are made from a description. It counts the maps it has begun.
+#include "tests/engine/world/HashNoise.h"
+
 #include <atomic>
 
 #include "teren/Plugin.h"
-
-#include "tests/engine/world/HashNoise.h"
 
 namespace {
 
