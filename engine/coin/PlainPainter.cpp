@@ -20,7 +20,7 @@ float smoothStep(float from, float to, float value) {
 /// The shaders' palette without its noise.
 SbVec3f groundColour(float height, float steep, float depth) {
   SbVec3f colour = mix({0.32F, 0.37F, 0.16F}, {0.43F, 0.41F, 0.27F}, smoothStep(120.0F, 380.0F, height));
-  colour = mix(colour, {0.43F, 0.40F, 0.37F}, smoothStep(0.50F, 0.72F, steep));
+  colour = mix(colour, {0.43F, 0.40F, 0.37F}, smoothStep(0.55F, 0.80F, steep));
   colour = mix(colour, {0.93F, 0.95F, 0.99F},
                smoothStep(420.0F, 480.0F, height) * (1.0F - smoothStep(0.70F, 1.05F, steep)));
   return mix(colour, {0.74F, 0.67F, 0.50F},

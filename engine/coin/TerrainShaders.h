@@ -65,9 +65,9 @@ void main() {
   vec3 alpine = vec3(0.43, 0.41, 0.27);
   vec3 colour = mix(mix(grass, alpine, ramp(120.0, 380.0, height)), forest, trees);
 
-  float strata = abs(fract(0.045 * ground.x + 1.2 * broad.r + 0.5 * fine.g) - 0.5);
-  vec3 rock = vec3(0.47, 0.43, 0.39) * (0.80 + 0.7 * strata + 0.7 * fine.b + 0.5 * broad.b);
-  colour = mix(colour, rock, ramp(0.50, 0.72, steep));
+  float strata = abs(fract(0.028 * ground.x + 4.0 * broad.r + 1.0 * fine.g) - 0.5);
+  vec3 rock = vec3(0.47, 0.43, 0.39) * (0.86 + 0.45 * strata + 0.7 * fine.b + 0.5 * broad.b);
+  colour = mix(colour, rock, ramp(0.55, 0.80, steep));
   float snow = ramp(420.0, 480.0, height) * ramp(1.05, 0.70, steep);
   colour = mix(colour, vec3(0.93, 0.95, 0.99), snow);
 

@@ -295,19 +295,20 @@ Result<WorldDescription> WorldDescription::fromFile(const std::filesystem::path&
 }
 
 WorldDescription WorldDescription::standard() {
-  const auto layer = [](const char* name, double pitch, double deviation, std::int64_t faults) {
+  const auto layer = [](const char* name, const char* generator, double pitch,
+                        std::vector<Values::Entry> parameters) {
     LayerDescription description;
     description.name = name;
-    description.generator = "fault";
-    description.parameters = {{"faults", faults}, {"deviation", deviation}};
+    description.generator = generator;
+    description.parameters = std::move(parameters);
     description.pitch = pitch;
-    description.filters = {{"band", {}}};
     return description;
   };
   WorldDescription world;
   world.seed = 42;
-  world.layers = {layer("ranges", 8192.0, 500.0, 150), layer("hills", 512.0, 40.0, 150),
-                  layer("detail", 64.0, 4.0, 150)};
+  world.layers = {layer("ranges", "spectral", 8192.0, {{"hurst", 1.0}, {"deviation", 500.0}}),
+                  layer("hills", "spectral", 1024.0, {{"hurst", 0.8}, {"deviation", 60.0}}),
+                  layer("detail", "fault", 64.0, {{"faults", std::int64_t{150}}, {"deviation", 2.5}})};
   return world;
 }
 

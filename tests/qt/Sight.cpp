@@ -11,6 +11,8 @@
 #include <QTimer>
 #include <gtest/gtest.h>
 
+#include "coin/SoTerrain.h"
+
 namespace teren {
 namespace {
 
@@ -28,6 +30,7 @@ class TimerEventCount : public QObject {
 void showSmallLand(TerrainWidget& land, std::uint64_t seed) {
   WorldDescription description = WorldDescription::standard();
   description.seed = seed;
+  land.terrain().waterLevel = -1e6F;
   ASSERT_TRUE(land.setOptions({.view = {.level = 1, .radius = 3}}).ok());
   ASSERT_TRUE(land.setWorld(description).ok());
 }

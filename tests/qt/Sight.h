@@ -10,8 +10,8 @@
 
 namespace teren {
 
-/// A seed of the standard world, seen from above the ground at (0, 0), small and fine so that it is there
-/// soon.
+/// A seed of the standard world without its water, seen from above the ground at (0, 0), small and fine so
+/// that it is there soon.
 void showSmallLand(TerrainWidget& land, std::uint64_t seed = 42);
 
 /// Whether the widget's timer runs.

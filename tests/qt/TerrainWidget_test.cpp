@@ -92,9 +92,8 @@ TEST(TerrainWidget, PicksNothingInTheSkyAndOutside) {
 TEST(TerrainWidget, KeepsTheEyeAboveTheGroundWhereverItIsMovedAndSaysSo) {
   const auto land = landAtRest();
   QSignalSpy moved(land.get(), &TerrainWidget::positionChanged);
-  Viewer viewer{.position = {3000, 77, 0.5, 0.25}, .heightAboveGround = 12.0, .heading = 1.0, .pitch = 0.1};
-  const auto water = static_cast<double>(land->terrain().waterLevel.getValue());
-  while (land->world()->height(viewer.position) < water + 10.0) viewer.position.i += 10;
+  const Viewer viewer{
+      .position = {3000, 77, 0.5, 0.25}, .heightAboveGround = 12.0, .heading = 1.0, .pitch = 0.1};
   ASSERT_TRUE(land->setViewer(viewer).ok());
   ASSERT_EQ(moved.count(), 1);
   EXPECT_EQ(moved[0][0].value<Viewer>(), viewer);

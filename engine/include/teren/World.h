@@ -53,7 +53,8 @@ struct WorldDescription {
   /// keys, wrong types, bad values and nesting deeper than 32 are refused, naming the key and its place.
   static Result<WorldDescription> fromJson(std::string_view text, std::string_view source);
   static Result<WorldDescription> fromFile(const std::filesystem::path& file);
-  /// The world shipped with Teren: ranges, hills and detail, at pitches of 8192, 512 and 64 m.
+  /// The world shipped with Teren: ranges, hills and detail, at pitches of 8192, 1024 and 64 m. With its sea
+  /// at -150 m, 38 % of it is water, and 18 % lies above 450 m, where snow begins.
   static WorldDescription standard();
 };
 

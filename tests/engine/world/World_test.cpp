@@ -189,7 +189,7 @@ TEST(World, StandardIsValidAndHasRangesHillsAndDetail) {
   const auto world = makeTestWorld(WorldDescription::standard());
   ASSERT_EQ(world->layers().size(), 3U);
   EXPECT_EQ(world->layers()[0].pitch(), 8192.0);
-  EXPECT_EQ(world->layers()[1].pitch(), 512.0);
+  EXPECT_EQ(world->layers()[1].pitch(), 1024.0);
   EXPECT_EQ(world->layers()[2].pitch(), 64.0);
   EXPECT_TRUE(std::isfinite(world->height({})));
   EXPECT_TRUE(world->takeMessages().empty());
