@@ -27,6 +27,11 @@ Triangulation::Triangulation(const LatticeFrame& frame, double height)
   rebuildGrid();
 }
 
+void Triangulation::reserve(std::size_t vertices) {
+  mesh_.reserve(vertices, 2 * vertices);
+  heights_.reserve(vertices);
+}
+
 std::size_t Triangulation::bytes() const noexcept {
   return sizeof(*this) + mesh_.bytes() + heights_.bytes() + table_.bytes() + grid_.bytes() +
          (rim_.capacity() + pending_.capacity()) * sizeof(Rim) + freed_.capacity() * sizeof(TriangleId) +

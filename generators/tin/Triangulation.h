@@ -31,6 +31,7 @@ struct Location {
 struct TriangleChange {
   std::array<VertexId, 3> corners;  // counter-clockwise
   bool created = false;
+  TriangleId triangle = kNoTriangle;
 };
 
 /// What an insertion came to.
@@ -61,6 +62,9 @@ class Triangulation {
  public:
   /// Four vertices, 0 ... 3 from south-west counter-clockwise, at `height` [m]. Sides of 1 ... kLatticeSide.
   explicit Triangulation(const LatticeFrame& frame, double height = 0.0);
+
+  /// Sets room aside for so many vertices in all, exactly.
+  void reserve(std::size_t vertices);
 
   const LatticeFrame& frame() const noexcept { return frame_; }
   std::size_t vertexCount() const noexcept { return mesh_.vertexCount(); }
@@ -205,7 +209,7 @@ class Triangulation {
   };
 
   void note(TriangleId t, bool created) {
-    if (changes_ != nullptr) changes_->push_back({mesh_.triangle(t).vertex, created});
+    if (changes_ != nullptr) changes_->push_back({mesh_.triangle(t).vertex, created, t});
   }
 
   // Triangulation.cpp
