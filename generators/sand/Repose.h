@@ -1,0 +1,29 @@
+// How steep loose material can lie: the angle of repose, what moisture adds, and when a face starts to slide.
+#pragma once
+
+namespace teren {
+
+/// Dry sand lies at 30 degrees (thesis of Pilsen 2009).
+inline constexpr double kDryRepose = 30.0;  // [degree]
+/// Damp sand, as castles are made of, lies steeper by as much.
+inline constexpr double kMoistureGain = 15.0;  // [degree]
+/// A face slides where it is steeper than the angle of repose by this, and then to the angle itself; so one
+/// face's slide does not start its neighbours', and nothing oscillates.
+inline constexpr double kSlideThreshold = 0.05;  // [degree]
+/// What is promised: once all is at rest no loose face is steeper than the angle of repose by more than this.
+inline constexpr double kReposeTolerance = 0.1;  // [degree]
+
+/// The slopes at which loose material starts to slide and at which it comes to rest, as tangents.
+struct Repose {
+  double rest = 0.0;
+  double start = 0.0;
+  friend bool operator==(const Repose&, const Repose&) = default;
+};
+
+/// Angle of repose [degree], 1 ... 60, of dry material; moisture from 0 (dry) to 1 (damp). Moisture adds
+/// kMoistureGain times itself: a straight line between the two states that one can build with. Material
+/// beyond, soaked and flowing, is not described. Anything outside these ranges is the nearest inside; NaN is
+/// dry sand.
+Repose reposeOf(double dryAngle = kDryRepose, double moisture = 0.0) noexcept;
+
+}  // namespace teren
