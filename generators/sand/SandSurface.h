@@ -1,0 +1,126 @@
+// A surface of sand: solid ground and what lies loose on it, on a triangulation, with an exact account of
+// volume.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "teren/Result.h"
+
+#include "generators/sand/ChangeList.h"
+#include "generators/sand/FaceSlide.h"
+#include "generators/sand/Ticks.h"
+#include "generators/sand/VolumeLedger.h"
+#include "generators/tin/Triangulation.h"
+
+namespace teren {
+
+/// Every vertex has a height, a whole number of ticks, and of that a thickness of loose material >= 0; what
+/// is below is solid. Heights are those of the triangulation, whose doubles hold ticks exactly.
+///
+/// volume() + owed() never changes but by add() and take(): every operation enters what it did to the volume
+/// of the piecewise linear surface, flips and crossings included, in exact integers. It does not pay at once;
+/// settle() does, from vertices of the caller's choice. Solid and loose are interpolated where a vertex
+/// comes; which of the two a given volume is, is not accounted for.
+///
+/// Costs: an operation's own in Triangulation; k neighbours make a weight O(k). Memory: 8 bytes a vertex
+/// beside the triangulation, and 1 bit a vertex and a triangle for the lists of what changed. One thread.
+class SandSurface {
+ public:
+  /// A level box; `loose` [m] of it is loose, at least 0; heights are clamped to +-16384 m.
+  SandSurface(const LatticeFrame& frame, double height, double loose);
+  /// Ground through points with a height [m] each, as many of both. A corner of the box that is not among
+  /// them has the first one's height, or 0. Room for `spare` vertices more is set aside, which keeps growing
+  /// cheap.
+  SandSurface(const LatticeFrame& frame, std::span<const LatticePoint> points,
+              std::span<const double> heights, double loose, std::size_t spare = 0);
+
+  const Triangulation& mesh() const noexcept { return mesh_; }
+  double step() const noexcept { return mesh_.frame().step; }  // [m]
+  std::int64_t height(VertexId v) const noexcept { return ticksOf(mesh_.height(v)); }
+  std::int64_t loose(VertexId v) const noexcept { return loose_[v]; }
+  std::int64_t solid(VertexId v) const noexcept { return height(v) - loose_[v]; }
+  /// Twice the area of all triangles at v [steps^2].
+  std::int64_t weight(VertexId v) const noexcept;
+  /// The corners of a triangle without their weights, which are 0.
+  Face unweighedFace(TriangleId t) const noexcept;
+  /// Height [ticks] of the triangles at a lattice point of the box, rounded.
+  std::int64_t heightAt(LatticePoint p, TriangleId hint) const noexcept;
+
+  /// Sixfold, exactly [ticks steps^2]. O(n).
+  SixfoldVolume volume() const noexcept;
+  const VolumeLedger& ledger() const noexcept { return ledger_; }
+  SixfoldVolume owed() const noexcept { return ledger_.owed(); }
+  /// All the volume that slides, stamps and settling have raised, sixfold [ticks steps^2]: what drift is
+  /// measured against.
+  SixfoldVolume volumeMoved() const noexcept { return moved_; }
+
+  /// Adds a vertex on the surface, or finds the one that is there.
+  VertexId insert(LatticePoint p, TriangleId hint = kNoTriangle);
+  /// False, and nothing changes, at a corner of the box or the end of a constrained edge.
+  bool remove(VertexId v);
+  /// As Triangulation::constrain; vertices at crossings are put on the surface.
+  void constrain(VertexId a, VertexId b, std::uint32_t id);
+  bool unconstrain(VertexId a, VertexId b);
+
+  /// Raises a vertex by some ticks. What comes is loose; what goes is loose as far as that lasts, then solid.
+  void raise(VertexId v, std::int64_t ticks);
+  /// Makes material loose down to this depth [ticks] below the surface.
+  void loosen(VertexId v, std::int64_t depth) noexcept;
+  /// A slide: no corner may fall by more than its loose thickness.
+  void apply(TriangleId t, const Face& face, const FaceMove& move);
+
+  /// Pays what is owed: all these vertices, different ones, rise by as many whole ticks as come nearest, the
+  /// heaviest by what is left; so |owed| ends at half its weight at most. Nothing without vertices.
+  void settle(std::span<const VertexId> vertices);
+  /// The corners of the triangles that the last insertion, removal or (un)constraining took or made, that
+  /// remain.
+  std::span<const VertexId> lastTouched() const noexcept { return touched_; }
+
+  /// Vertices that rose, fell, came or went, and triangles that came, went or lie at such vertices, since
+  /// clearChanges().
+  const ChangeList& changedVertices() const noexcept { return changedVertices_; }
+  const ChangeList& changedTriangles() const noexcept { return changedTriangles_; }
+  void clearChanges() noexcept;
+
+  /// Every byte held, unused capacity included.
+  std::size_t bytes() const noexcept;
+  /// The triangulation's promises, and that heights are ticks in range and no thickness is negative. O(n).
+  Result<void> validate() const;
+
+ private:
+  /// A vertex as it was before it was removed.
+  struct Gone {
+    VertexId vertex = kNoVertex;
+    LatticePoint place;
+    std::int64_t height = 0;
+  };
+
+  static std::int64_t ticksOf(double height) noexcept {
+    return static_cast<std::int64_t>(height * kTicksPerMetre);
+  }
+  void setHeight(VertexId v, std::int64_t ticks) noexcept;
+  void adopt(VertexId v, std::int64_t ticks, std::int64_t loose);
+  void adoptCrossings();
+  void begin();
+  void finish(const Gone& gone);
+  std::int64_t looseAt(LatticePoint p, TriangleId t) const noexcept;
+  void noteMoved(VertexId v);
+
+  Triangulation mesh_;
+  static constexpr std::int64_t kNoLoose = -1;  // no vertex is there
+  CompactArray<std::int64_t> loose_;            // [ticks]
+  VolumeLedger ledger_;
+  SixfoldVolume moved_ = 0;
+  ChangeList changedVertices_;
+  ChangeList changedTriangles_;
+
+  // Kept between operations so that they allocate nothing.
+  std::vector<TriangleChange> changes_;
+  std::vector<VertexId> touched_;
+  ChangeList seen_;
+};
+
+}  // namespace teren

@@ -1,0 +1,137 @@
+#include "generators/sand/SandSurface.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/generators/sand/Heaps.h"
+
+namespace teren {
+namespace {
+
+double ripples(double x, double y) {
+  const double u = 8.0 * x - std::floor(8.0 * x) - 0.5, v = 5.0 * y - std::floor(5.0 * y) - 0.5;
+  return u * u - 0.3 * v;
+}
+
+/// Any vertex of the surface.
+VertexId anyVertex(const SandSurface& surface, RandomSequence& random) {
+  for (;;) {
+    const auto v = static_cast<VertexId>(random.next() % surface.mesh().vertexSlots());
+    if (surface.mesh().isVertex(v)) return v;
+  }
+}
+
+void change(SandSurface& surface, RandomSequence& random) {
+  const VertexId v = anyVertex(surface, random), w = anyVertex(surface, random);
+  switch (random.next() % 8) {
+    case 0:
+    case 1:
+    case 2:
+      surface.insert(
+          {static_cast<std::int32_t>(random.nextBits(20)), static_cast<std::int32_t>(random.nextBits(20))});
+      break;
+    case 3:
+    case 4:
+      surface.remove(v);
+      break;
+    case 5:
+      surface.raise(v, random.nextBits(36) - (std::int64_t{1} << 35));
+      break;
+    case 6:
+      if (surface.mesh().constraintCount() < 12) surface.constrain(v, w, 7);
+      break;
+    default: {
+      VertexId a = kNoVertex, b = kNoVertex;
+      surface.mesh().forEachConstraint([&](VertexId one, VertexId other, std::uint32_t) {
+        a = one;
+        b = other;
+      });
+      if (a != kNoVertex) surface.unconstrain(a, b);
+    }
+  }
+}
+
+TEST(SandSurface, AccountsForEveryChangeOfItsVolumeExactly) {
+  SandSurface surface = scatteredSand(120, 11, 0.1, ripples);
+  RandomSequence random(12);
+  const SixfoldVolume all = surface.volume();
+  for (int n = 0; n < 4'000; ++n) {
+    change(surface, random);
+    ASSERT_TRUE(surface.volume() + surface.owed() == all) << "after change " << n;
+  }
+  const Result<void> sound = surface.validate();
+  EXPECT_TRUE(sound) << sound.error().message;
+}
+
+TEST(SandSurface, PaysWhatItOwesToHalfTheHeaviestWeight) {
+  SandSurface surface = scatteredSand(300, 13, 0.1, ripples);
+  RandomSequence random(14);
+  const SixfoldVolume all = surface.volume();
+  for (int n = 0; n < 1'000; ++n) {
+    const VertexId v = surface.insert(
+        {static_cast<std::int32_t>(random.nextBits(20)), static_cast<std::int32_t>(random.nextBits(20))});
+    surface.settle({&v, 1});
+    const SixfoldVolume owed = surface.owed() < 0 ? -surface.owed() : surface.owed();
+    ASSERT_TRUE(2 * owed <= surface.weight(v)) << n;
+  }
+  for (VertexId v = 4; v < surface.mesh().vertexSlots(); v += 2) {
+    if (!surface.remove(v)) continue;
+    const std::vector<VertexId> ring(surface.lastTouched().begin(), surface.lastTouched().end());
+    surface.settle(ring);
+    std::int64_t most = 0;
+    for (const VertexId w : ring) most = std::max(most, surface.weight(w));
+    const SixfoldVolume owed = surface.owed() < 0 ? -surface.owed() : surface.owed();
+    ASSERT_TRUE(2 * owed <= most) << v;
+  }
+  EXPECT_TRUE(surface.volume() + surface.owed() == all);
+}
+
+TEST(SandSurface, LeavesLevelGroundAloneWhateverIsInserted) {
+  SandSurface surface(boxOf(20, 0x1p-20), 3.25, 1.0);
+  RandomSequence random(15);
+  for (int n = 0; n < 300; ++n) {
+    const VertexId v = surface.insert(
+        {static_cast<std::int32_t>(random.nextBits(20)), static_cast<std::int32_t>(random.nextBits(20))});
+    surface.settle({&v, 1});
+    ASSERT_EQ(surface.height(v), ticksFromMetres(3.25));
+    ASSERT_EQ(surface.loose(v), ticksFromMetres(1.0));
+  }
+  EXPECT_TRUE(surface.owed() == 0);
+}
+
+TEST(SandSurface, LosesLooseMaterialBeforeSolid) {
+  SandSurface surface(boxOf(10, 0x1p-10), 1.0, 0.25);
+  surface.raise(0, -ticksFromMetres(0.125));
+  EXPECT_EQ(surface.solid(0), ticksFromMetres(0.75));
+  surface.raise(0, -ticksFromMetres(0.5));
+  EXPECT_EQ(surface.loose(0), 0);
+  EXPECT_EQ(surface.solid(0), ticksFromMetres(0.375));
+  surface.raise(0, ticksFromMetres(0.5));
+  EXPECT_EQ(surface.loose(0), ticksFromMetres(0.5));
+  EXPECT_EQ(surface.solid(0), ticksFromMetres(0.375));
+}
+
+TEST(SandSurface, ListsEveryVertexAndTriangleThatChanged) {
+  SandSurface surface = scatteredSand(100, 16, 0.1, ripples);
+  RandomSequence random(17);
+  for (int n = 0; n < 500; ++n) {
+    const SandSurface before = surface;
+    surface.clearChanges();
+    change(surface, random);
+    for (VertexId v = 0; v < surface.mesh().vertexSlots(); ++v) {
+      const bool was = before.mesh().isVertex(v), is = surface.mesh().isVertex(v);
+      const bool same = was == is && (!is || (before.height(v) == surface.height(v) &&
+                                              before.mesh().point(v) == surface.mesh().point(v)));
+      ASSERT_TRUE(same || surface.changedVertices().contains(v)) << v << " in " << n;
+    }
+    for (TriangleId t = 0; t < surface.mesh().triangleSlots(); ++t) {
+      const bool was = before.mesh().isTriangle(t), is = surface.mesh().isTriangle(t);
+      const bool same = was == is && (!is || before.mesh().corners(t) == surface.mesh().corners(t));
+      ASSERT_TRUE(same || surface.changedTriangles().contains(t)) << t << " in " << n;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace teren
