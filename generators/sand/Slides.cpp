@@ -1,0 +1,112 @@
+#include "generators/sand/Slides.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace teren {
+namespace {
+
+constexpr double kShortestLimit = 8.0;  // [steps]
+
+LatticePoint middle(LatticePoint a, LatticePoint b) noexcept {
+  return {static_cast<std::int32_t>((a.x + b.x) >> 1), static_cast<std::int32_t>((a.y + b.y) >> 1)};
+}
+
+double squaredLength(LatticePoint a, LatticePoint b) noexcept {
+  const double x = b.x - a.x, y = b.y - a.y;
+  return x * x + y * y;
+}
+
+}  // namespace
+
+void Slides::addAround(const SandSurface& surface, VertexId v) {
+  surface.mesh().forEachCorner(v, [this](Link at) { add(at.triangle()); });
+}
+
+void Slides::addAll(const SandSurface& surface) {
+  for (TriangleId t = 0; t < surface.mesh().triangleSlots(); ++t) {
+    if (surface.mesh().isTriangle(t)) add(t);
+  }
+}
+
+bool Slides::advance(SandSurface& surface, std::uint64_t steps) {
+  for (; steps > 0 && !atRest(); --steps) {
+    if (position_ == now_.size()) {
+      now_.clear();
+      now_.swap(next_);
+      position_ = 0;
+      ++count_.sweeps;
+    }
+    const TriangleId t = now_[position_++];
+    waiting_.erase(t);
+    ++count_.steps;
+    if (surface.mesh().isTriangle(t)) look(surface, t);
+  }
+  return atRest();
+}
+
+void Slides::look(SandSurface& surface, TriangleId t) {
+  Face face = surface.unweighedFace(t);
+  if (!(slopeOf(face, surface.step()) > repose_.start)) return;
+  const auto bears = [](const FaceCorner& corner) { return corner.loose > kBareTicks; };
+  if (std::none_of(face.begin(), face.end(), bears)) return;
+  if (divideEdges(surface, t, face)) return;
+  const std::array<VertexId, 3> corners = surface.mesh().corners(t);
+  for (std::size_t i = 0; i < 3; ++i) face[i].weight = surface.weight(corners[i]);
+  const auto move = slideFace(face, repose_, surface.step(), surface.ledger());
+  if (!move) return;
+  surface.apply(t, face, *move);
+  ++count_.moves;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((*move)[i] != 0) addAround(surface, corners[i]);
+  }
+}
+
+/// Divides long edges at the corners that would fall, those above the face's middle height. True where there
+/// was one: the face waits again, or is gone.
+bool Slides::divideEdges(SandSurface& surface, TriangleId t, const Face& face) {
+  const std::array<VertexId, 3> corners = surface.mesh().corners(t);
+  const auto [low, high] = std::minmax({face[0].height, face[1].height, face[2].height});
+  const std::int64_t half = low + (high - low) / 2;
+  bool divided = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool falls = face[i].height > half && face[i].loose > kBareTicks;
+    if (falls && divideEdgesAt(surface, corners[i])) divided = true;
+  }
+  if (divided) add(t);
+  return divided;
+}
+
+bool Slides::divideEdgesAt(SandSurface& surface, VertexId v) {
+  const double limit = std::max(longestEdge_ / surface.step(), kShortestLimit);
+  far_.clear();
+  surface.mesh().forEachNeighbour(v, [&](VertexId n) {
+    if (squaredLength(surface.mesh().point(v), surface.mesh().point(n)) > limit * limit) far_.push_back(n);
+  });
+  for (const VertexId n : far_) {
+    if (!surface.mesh().isEdge(v, n)) continue;  // flipped away by one divided before
+    const LatticePoint p = middle(surface.mesh().point(v), surface.mesh().point(n));
+    const VertexId between = surface.insert(p, surface.mesh().triangleAt(v));
+    surface.settle({&between, 1});
+    addAround(surface, between);
+    ++count_.splits;
+  }
+  return !far_.empty();
+}
+
+std::size_t Slides::bytes() const noexcept {
+  return sizeof(*this) + waiting_.bytes() + (now_.capacity() + next_.capacity()) * sizeof(TriangleId) +
+         far_.capacity() * sizeof(VertexId);
+}
+
+double steepestLooseSlope(const SandSurface& surface) {
+  double steepest = 0.0;
+  for (TriangleId t = 0; t < surface.mesh().triangleSlots(); ++t) {
+    if (!surface.mesh().isTriangle(t)) continue;
+    const Face face = surface.unweighedFace(t);
+    if (isLoose(face)) steepest = std::max(steepest, slopeOf(face, surface.step()));
+  }
+  return steepest;
+}
+
+}  // namespace teren
