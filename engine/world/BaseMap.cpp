@@ -6,8 +6,7 @@
 
 #include "teren/Hash.h"
 #include "teren/HeightMapOperations.h"
-
-#include "world/StepLimit.h"
+#include "teren/StepLimit.h"
 
 namespace teren {
 

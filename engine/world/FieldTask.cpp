@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "teren/HeightMapOperations.h"
-
-#include "world/StepLimit.h"
+#include "teren/StepLimit.h"
 
 namespace teren {
 

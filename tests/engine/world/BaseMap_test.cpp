@@ -11,9 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include "teren/StepLimit.h"
+
 #include "tests/engine/world/HashNoise.h"
 #include "tests/engine/world/TestLayer.h"
-#include "world/StepLimit.h"
 
 namespace teren {
 namespace {

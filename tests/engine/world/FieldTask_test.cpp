@@ -10,11 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include "teren/StepLimit.h"
+
 #include "tests/engine/world/RandomDraws.h"
 #include "tests/engine/world/TestLayer.h"
 #include "tests/engine/world/ValueNoise.h"
 #include "tests/support/SlicedWork.h"
-#include "world/StepLimit.h"
 
 namespace teren {
 namespace {

@@ -1,4 +1,4 @@
-#include "world/StepLimit.h"
+#include "teren/StepLimit.h"
 
 #include <cstdint>
 #include <string>
