@@ -1,9 +1,10 @@
-// Counts the allocations of the thread that asks, in a program that links AllocationCount.cpp.
+// Counts the allocations of the thread that asks, in a program that links apps/check/AllocationCount.cpp.
 #pragma once
+
+#include "apps/check/AllocationCount.h"
 
 namespace teren::test {
 
-/// How often operator new was called by this thread so far.
-long allocationCount() noexcept;
+using check::allocationCount;
 
 }  // namespace teren::test
