@@ -140,6 +140,12 @@ void PluginRegistry::loadFile(const fs::path& file) {
                           file, module->parameters});
 }
 
+std::shared_ptr<const PluginRegistry> PluginRegistry::loadModule(const fs::path& file) {
+  const std::shared_ptr<PluginRegistry> registry(new PluginRegistry);
+  registry->loadFile(file);
+  return registry;
+}
+
 const PluginInfo* PluginRegistry::find(std::string_view id) const noexcept {
   const auto found =
       std::find_if(plugins_.begin(), plugins_.end(), [id](const PluginInfo& info) { return info.id == id; });

@@ -56,6 +56,9 @@ class PluginRegistry {
   std::span<const PluginInfo> plugins() const noexcept { return plugins_; }  ///< sorted by id
   std::span<const RefusedModule> refused() const noexcept { return refused_; }
 
+  /// A registry of this one module, which need not lie on the search path; where it is refused, of none.
+  static std::shared_ptr<const PluginRegistry> loadModule(const std::filesystem::path& file);
+
   /// nullptr where no plugin has this id.
   const PluginInfo* find(std::string_view id) const noexcept;
 

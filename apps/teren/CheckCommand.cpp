@@ -1,0 +1,209 @@
+// teren check FILE.so [--property NAME] [--quick] [--limit S] [--json]: puts a module to the contract of
+// plugins, each property in a process of its own.
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "teren/PluginRegistry.h"
+#include "teren/Quote.h"
+
+#include "apps/check/Property.h"
+#include "apps/check/Subject.h"
+#include "apps/teren/CheckProcess.h"
+#include "apps/teren/Command.h"
+#include "apps/teren/Interruption.h"
+#include "apps/teren/JsonOutput.h"
+#include "apps/teren/ProgressLine.h"
+
+namespace teren {
+namespace {
+
+using check::Effort;
+using check::Property;
+
+/// The first thing asked of a module: the engine's own checks at the door.
+constexpr const char* kLoading = "loading";
+constexpr const char* kLoadingDemand =
+    "The engine takes the module: it is built for this one and describes itself well.";
+constexpr double kUsualLimit = 60.0;  // [s]
+constexpr std::size_t kNameColumn = 14;
+
+class CheckCommand final : public Command {
+ public:
+  explicit CheckCommand(CLI::App& parent)
+      : Command(parent, "check",
+                "put a plugin's module to the contract of plugins, each property in a process of its own"),
+        file_(application().add_option("FILE", "the module, teren-<id>.so")->required()),
+        property_(application().add_option("--property", "this property alone")->type_name("NAME")),
+        quick_(addFlag("--quick", "fewer seeds: seconds instead of a minute")),
+        limit_(application()
+                   .add_option("--limit",
+                               "processor time for a property in seconds, and ten times as much to wait [60]")
+                   ->type_name("S")),
+        answer_(application().add_option("--answer", "")->group("")),
+        json_(addJson()) {}
+
+  ExitCode run() override {
+    if (const auto wrong = wrongInput()) return fail(kWrongInput, *wrong);
+    if (answer_->count() > 0) return answerAlone();
+    const Interruption interruption;
+    interruption_ = &interruption;
+    const std::vector<std::string> names = wantedNames();
+    bool all = true;
+    wanted_ = names.size();
+    for (done_ = 0; done_ < wanted_; ++done_) {
+      const OrderedJson answer = ask(names[done_]);
+      if (interruption.came()) return fail(kWorkFailed, "interrupted, the check was not completed");
+      const bool holds = answer["holds"];
+      tell(answer);
+      all = all && holds;
+      if (!holds && names[done_] == kLoading) break;
+    }
+    tellEnd(all);
+    return all ? kSuccess : kWorkFailed;
+  }
+
+ private:
+  std::optional<std::string> wrongInput() {
+    std::error_code error;
+    if (!std::filesystem::exists(argument(*file_), error))
+      return "there is no file " + inQuotes(argument(*file_));
+    if (limit_->count() > 0) {
+      const Result<double> seconds = numberArgument("--limit", argument(*limit_), 0.05, 86400.0);
+      if (!seconds) return seconds.error().message;
+      seconds_ = *seconds;
+    }
+    const std::string name = argument(*property_);
+    if (property_->count() == 0 || name == kLoading || check::findProperty(name) != nullptr)
+      return std::nullopt;
+    std::string sentence = "--property is " + inQuotes(name) + " but must be " + kLoading;
+    for (const Property* property : check::contract()) sentence += ", " + std::string(property->name());
+    return sentence;
+  }
+
+  /// Loading first: without it there is nothing to look at.
+  std::vector<std::string> wantedNames() const {
+    std::vector<std::string> names = {kLoading};
+    for (const Property* property : check::contract()) {
+      if (property_->count() == 0 || argument(*property_) == property->name())
+        names.emplace_back(property->name());
+    }
+    return names;
+  }
+
+  const CLI::Option* addFlag(const std::string& name, const std::string& doc) {
+    return application().add_flag(name, doc)->disable_flag_override();
+  }
+
+  // --- In the process of one property
+  // ---------------------------------------------------------------------------
+
+  ExitCode answerAlone() const {
+    const Result<std::int64_t> pipe = wholeArgument("--answer", argument(*answer_), 3, 1 << 20);
+    if (!pipe) return fail(kWrongInput, pipe.error().message);
+    const auto registry = PluginRegistry::loadModule(argument(*file_));
+    const std::string answer = answerOf(registry).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    if (writeCheckAnswer(static_cast<int>(*pipe), answer)) return kSuccess;
+    return fail(kWorkFailed, "the answer cannot be written");
+  }
+
+  OrderedJson answerOf(const std::shared_ptr<const PluginRegistry>& registry) const {
+    if (registry->plugins().empty()) return {{"holds", false}, {"text", registry->refused().front().reason}};
+    const PluginInfo& info = registry->plugins().front();
+    if (argument(*property_) == kLoading) {
+      return {{"holds", true},
+              {"text", info.doc},
+              {"id", info.id},
+              {"kind", kindText(info.kind)},
+              {"version", info.version}};
+    }
+    const check::Subject subject(registry, info.id);
+    const check::Finding finding =
+        check::findProperty(argument(*property_))
+            ->check(subject, quick_->count() > 0 ? Effort::quick() : Effort::full());
+    return {{"holds", finding.holds}, {"text", finding.text}};
+  }
+
+  // --- In the process that asks
+  // ---------------------------------------------------------------------------------
+
+  OrderedJson ask(const std::string& name) const {
+    std::vector<std::string> arguments = {"check", argument(*file_), "--property", name};
+    if (quick_->count() > 0) arguments.emplace_back("--quick");
+    ProgressLine line("properties");
+    const Result<std::string> said = runCheckProcess(arguments, CheckLimit(seconds_), [&] {
+      line.show(done_, wanted_);
+      return !interruption_->came();
+    });
+    OrderedJson answer = {{"name", name}, {"demand", demandOf(name)}};
+    OrderedJson read = said ? OrderedJson::parse(*said, nullptr, false) : OrderedJson();
+    if (!read.is_object() || !read.contains("holds") || !read.contains("text")) {
+      read = {{"holds", false},
+              {"text", said ? "its process ended without an answer" : said.error().message}};
+    }
+    answer.update(read);
+    return answer;
+  }
+
+  static std::string demandOf(const std::string& name) {
+    const Property* const property = check::findProperty(name);
+    return property == nullptr ? kLoadingDemand : std::string(property->demand());
+  }
+
+  void tell(const OrderedJson& answer) {
+    const std::string name = answer["name"];
+    const bool holds = answer["holds"];
+    if (name == kLoading) {
+      for (const char* key : {"id", "kind", "version"})
+        report_[key] = answer.contains(key) ? answer[key] : nullptr;
+    }
+    report_["properties"].push_back(
+        {{"name", name}, {"demand", answer["demand"]}, {"holds", holds}, {"text", answer["text"]}});
+    failures_ += holds ? 0 : 1;
+    if (json_->count() > 0) return;
+    const std::string text = shortened(std::string(answer["text"]), 1000);
+    std::cout << (holds ? "pass  " : "FAIL  ") << name
+              << std::string(kNameColumn - std::min(kNameColumn, name.size()), ' ') << text << std::endl;
+  }
+
+  void tellEnd(bool holds) {
+    if (json_->count() > 0) {
+      OrderedJson report = {{"file", argument(*file_)}};
+      report.update(report_);
+      report["holds"] = holds;
+      printJson(report);
+      return;
+    }
+    const std::size_t count = report_["properties"].size();
+    if (holds) {
+      std::cout << "it keeps the contract: " << count << " properties hold\n";
+    } else {
+      std::cout << "it breaks the contract: " << failures_ << " of " << count << " properties "
+                << (failures_ == 1 ? "does" : "do") << " not hold\n";
+    }
+  }
+
+  const CLI::Option* file_;
+  const CLI::Option* property_;
+  const CLI::Option* quick_;
+  const CLI::Option* limit_;
+  const CLI::Option* answer_;
+  const CLI::Option* json_;
+  double seconds_ = kUsualLimit;
+  const Interruption* interruption_ = nullptr;
+  OrderedJson report_ = OrderedJson::object();
+  std::size_t wanted_ = 0, done_ = 0, failures_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeCheckCommand(CLI::App& parent) {
+  return std::make_unique<CheckCommand>(parent);
+}
+
+}  // namespace teren
