@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cstring>
-#include <dlfcn.h>
 #include <exception>
-#include <memory>
+#include <fstream>
+#include <optional>
 #include <system_error>
 #include <utility>
 
-#include "teren/PluginRegistry.h"
+#include "teren/Hash.h"
 #include "teren/Quote.h"
 
+#include "plugin/LoadedLibrary.h"
 #include "plugin/SharedObject.h"
 #include "plugin/TableCheck.h"
 #include "plugin/Thrown.h"
@@ -20,13 +21,8 @@ namespace {
 
 constexpr std::string_view kPrefix = "teren-";
 constexpr std::string_view kSuffix = ".so";
-constexpr std::size_t kSentenceBytes = 400;  // of the loader's or a plugin's own words
+constexpr std::size_t kSentenceBytes = 400;  // of a plugin's own words
 constexpr std::uint64_t kMostAbiWords = 256;
-
-struct Unload {
-  void operator()(void* handle) const noexcept { dlclose(handle); }
-};
-using Handle = std::unique_ptr<void, Unload>;
 
 std::string_view wordName(const AbiWord& word) {
   return word.name == nullptr ? std::string_view() : std::string_view(word.name, strnlen(word.name, 1000));
@@ -38,13 +34,15 @@ const AbiWord* findWord(std::span<const AbiWord> words, std::string_view name) {
   return found == words.end() ? nullptr : &*found;
 }
 
-/// dlerror's sentence without the file's name in front, which is told beside it.
-std::string loaderMessage(const std::filesystem::path& file) {
-  const char* text = dlerror();
-  std::string_view message = text == nullptr ? std::string_view("unknown reason") : std::string_view(text);
-  const std::string front = file.string() + ": ";
-  if (message.starts_with(front)) message.remove_prefix(front.size());
-  return shortened(message, kSentenceBytes);
+/// All of a file; empty where it cannot be read.
+std::optional<std::string> bytesOf(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) return std::nullopt;
+  std::string bytes(size, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) return std::nullopt;
+  return bytes;
 }
 
 Result<const PluginDescription*> callEntryPoint(void* symbol) {
@@ -100,14 +98,26 @@ Result<void> checkKind(const PluginDescription& description) {
                " is neither generator (1) nor filter (2)"};
 }
 
-Result<Module> checkModule(const PluginDescription* description, const std::string& expectedId) {
-  if (Result<void> fixed = checkFixedPart(description); !fixed) return fixed.error();
-  if (Result<void> texts = checkTexts(*description, expectedId); !texts) return texts.error();
-  if (Result<void> kind = checkKind(*description); !kind) return kind.error();
+Result<void> checkDescription(const PluginDescription* description, const std::string& expectedId) {
+  if (Result<void> fixed = checkFixedPart(description); !fixed) return fixed;
+  if (Result<void> texts = checkTexts(*description, expectedId); !texts) return texts;
+  if (Result<void> kind = checkKind(*description); !kind) return kind;
   if (description->parameters == nullptr) return Error{"its description has no parameter table"};
-  const std::span<const Parameter> table = description->parameters();
-  if (Result<void> checked = checkTable(table); !checked) return checked.error();
-  return Module{description, table};
+  return checkTable(description->parameters());
+}
+
+/// Asks a loaded library what it is, and keeps it if that can be believed.
+Result<std::shared_ptr<const Module>> accept(LoadedLibrary library, const std::string& expectedId,
+                                             std::uint64_t contents) {
+  void* const symbol = library.symbol(kPluginEntryPoint);
+  if (symbol == nullptr) {
+    return Error{std::string("it does not export the function ") + kPluginEntryPoint};
+  }
+  const Result<const PluginDescription*> description = callEntryPoint(symbol);
+  if (!description) return description.error();
+  if (Result<void> checked = checkDescription(*description, expectedId); !checked) return checked.error();
+  library.keep();
+  return std::make_shared<const Module>(Module{*description, (*description)->parameters(), contents});
 }
 
 }  // namespace
@@ -142,27 +152,23 @@ Result<void> compareAbiWords(std::span<const AbiWord> module, std::span<const Ab
   return Error{"it was built for another binary interface: " + differences};
 }
 
-Result<Module> openModule(const std::filesystem::path& file) {
+Result<std::shared_ptr<const Module>> openModule(const std::filesystem::path& file, ModuleLoading loading,
+                                                 const std::shared_ptr<const Module>& before) {
   const std::string expectedId = pluginIdFromFile(file);
   if (!isPluginId(expectedId)) {
     return Error{"a module's file name must be teren-<id>.so, the id in lower-case letters, digits and '-'"};
   }
   if (Result<void> object = checkSharedObject(file); !object) return object.error();
-  // A name with a slash, or the loader would search its own folders.
-  std::error_code error;
-  const std::filesystem::path whole = std::filesystem::absolute(file, error);
-  if (error) return Error{"the current folder is gone"};
-  Handle handle(dlopen(whole.c_str(), RTLD_NOW | RTLD_LOCAL));
-  if (handle == nullptr) return Error{"the loader refuses it: " + loaderMessage(whole)};
-  void* const symbol = dlsym(handle.get(), kPluginEntryPoint);
-  if (symbol == nullptr) {
-    return Error{std::string("it does not export the function ") + kPluginEntryPoint};
-  }
-  const Result<const PluginDescription*> description = callEntryPoint(symbol);
-  if (!description) return description.error();
-  Result<Module> module = checkModule(description.value(), expectedId);
-  if (module) static_cast<void>(handle.release());
-  return module;
+  std::optional<std::string> bytes = bytesOf(file);
+  if (!bytes) return Error{"it cannot be read"};
+  const std::uint64_t contents = hashText(*bytes);
+  if (before && before->contents == contents) return before;
+  const bool mixing = makeUniqueSymbolsWeak(*bytes);
+  Result<LoadedLibrary> library = loading == ModuleLoading::mapped && !mixing
+                                      ? LoadedLibrary::map(file)
+                                      : LoadedLibrary::copy(*bytes, file.filename().string());
+  if (!library) return library.error();
+  return accept(std::move(*library), expectedId, contents);
 }
 
 }  // namespace teren

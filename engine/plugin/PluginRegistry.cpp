@@ -73,19 +73,49 @@ bool isPluginId(std::string_view id) noexcept {
   });
 }
 
-std::shared_ptr<const PluginRegistry> PluginRegistry::load(std::span<const fs::path> folders) {
+std::shared_ptr<const PluginRegistry> PluginRegistry::load(std::span<const fs::path> folders,
+                                                           ModuleLoading loading) {
   const std::shared_ptr<PluginRegistry> registry(new PluginRegistry);
+  registry->folders_.assign(folders.begin(), folders.end());
+  registry->loadFolders(loading, nullptr);
+  return registry;
+}
+
+Result<std::shared_ptr<const PluginRegistry>> PluginRegistry::reloaded() const {
+  const std::shared_ptr<PluginRegistry> registry(new PluginRegistry);
+  registry->folders_ = folders_;
+  registry->loadFolders(ModuleLoading::copied, this);
+  for (const PluginInfo& plugin : plugins_) {
+    const RefusedModule* refused = registry->find(plugin.id) ? nullptr : registry->refusal(plugin.id);
+    if (refused == nullptr) continue;
+    return Error{shortened(refused->file.string(), kSentenceBytes) + " was refused: " + refused->reason};
+  }
+  return std::shared_ptr<const PluginRegistry>(registry);
+}
+
+std::vector<std::string> PluginRegistry::changedSince(const PluginRegistry& before) const {
+  std::vector<std::string> changed;
+  for (const PluginInfo& plugin : plugins_) {
+    if (module(plugin.id) != before.module(plugin.id)) changed.push_back(plugin.id);
+  }
+  for (const PluginInfo& plugin : before.plugins_) {
+    if (find(plugin.id) == nullptr) changed.push_back(plugin.id);
+  }
+  std::sort(changed.begin(), changed.end());
+  return changed;
+}
+
+void PluginRegistry::loadFolders(ModuleLoading loading, const PluginRegistry* before) {
   std::vector<fs::path> visited;
-  for (const fs::path& folder : folders) {
+  for (const fs::path& folder : folders_) {
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);
     if (error == std::errc::no_such_file_or_directory) continue;
     // The same folder by two names is no reason to report all its plugins as duplicates.
     if (std::find(visited.begin(), visited.end(), real) != visited.end()) continue;
     if (!error) visited.push_back(real);
-    registry->loadFolder(folder);
+    loadFolder(folder, loading, before);
   }
-  return registry;
 }
 
 std::vector<fs::path> PluginRegistry::searchPath() {
@@ -109,16 +139,16 @@ std::shared_ptr<const PluginRegistry> PluginRegistry::standard() {
   return registry;
 }
 
-void PluginRegistry::loadFolder(const fs::path& folder) {
+void PluginRegistry::loadFolder(const fs::path& folder, ModuleLoading loading, const PluginRegistry* before) {
   const Result<std::vector<fs::path>> files = moduleFiles(folder);
   if (!files) {
     refused_.push_back({folder, files.error().message});
     return;
   }
-  for (const fs::path& file : files.value()) loadFile(file);
+  for (const fs::path& file : files.value()) loadFile(file, loading, before);
 }
 
-void PluginRegistry::loadFile(const fs::path& file) {
+void PluginRegistry::loadFile(const fs::path& file, ModuleLoading loading, const PluginRegistry* before) {
   // A module's id is its file's name, so a second one of the same id need not be opened to be known.
   const std::string id = pluginIdFromFile(file);
   if (const PluginInfo* first = find(id); first != nullptr) {
@@ -126,18 +156,20 @@ void PluginRegistry::loadFile(const fs::path& file) {
                                   shortened(first->file.string(), kSentenceBytes)});
     return;
   }
-  const Result<Module> module = openModule(file);
+  Result<std::shared_ptr<const Module>> module =
+      openModule(file, loading, before == nullptr ? nullptr : before->module(id));
   if (!module) {
     refused_.push_back({file, module.error().message});
     return;
   }
-  const PluginDescription& found = *module->description;
+  const PluginDescription& found = *(*module)->description;
   const auto place =
       std::lower_bound(plugins_.begin(), plugins_.end(), id,
                        [](const PluginInfo& info, const std::string& name) { return info.id < name; });
-  descriptions_.insert(descriptions_.begin() + (place - plugins_.begin()), &found);
+  const auto parameters = (*module)->parameters;
+  modules_.insert(modules_.begin() + (place - plugins_.begin()), std::move(*module));
   plugins_.insert(place, {id, found.kind, shortened(found.version), shortened(found.doc, kSentenceBytes),
-                          file, module->parameters});
+                          file, parameters});
 }
 
 std::shared_ptr<const PluginRegistry> PluginRegistry::loadModule(const fs::path& file) {
@@ -152,10 +184,21 @@ const PluginInfo* PluginRegistry::find(std::string_view id) const noexcept {
   return found == plugins_.end() ? nullptr : &*found;
 }
 
-Result<const PluginDescription*> PluginRegistry::describe(std::string_view id, PluginKind kind) const {
+std::shared_ptr<const Module> PluginRegistry::module(std::string_view id) const noexcept {
   const PluginInfo* info = find(id);
-  if (info != nullptr && info->kind == kind)
-    return descriptions_[static_cast<std::size_t>(info - plugins_.data())];
+  return info == nullptr ? nullptr : modules_[static_cast<std::size_t>(info - plugins_.data())];
+}
+
+const RefusedModule* PluginRegistry::refusal(std::string_view id) const noexcept {
+  const auto found = std::find_if(refused_.begin(), refused_.end(), [id](const RefusedModule& module) {
+    return pluginIdFromFile(module.file) == id;
+  });
+  return found == refused_.end() ? nullptr : &*found;
+}
+
+Result<std::shared_ptr<const Module>> PluginRegistry::moduleOf(std::string_view id, PluginKind kind) const {
+  const PluginInfo* info = find(id);
+  if (info != nullptr && info->kind == kind) return module(id);
   std::string known;
   for (const PluginInfo& plugin : plugins_) {
     if (plugin.kind == kind) known += (known.empty() ? "" : ", ") + plugin.id;
@@ -166,10 +209,7 @@ Result<const PluginDescription*> PluginRegistry::describe(std::string_view id, P
     return Error{"plugin " + inQuotes(id) + " is a " + kindName(info->kind) + ", not a " + kindName(kind) +
                  list};
   }
-  const auto refused = std::find_if(refused_.begin(), refused_.end(), [id](const RefusedModule& module) {
-    return pluginIdFromFile(module.file) == id;
-  });
-  if (refused != refused_.end()) {
+  if (const RefusedModule* refused = refusal(id); refused != nullptr) {
     return Error{"no " + std::string(kindName(kind)) + " has the id " + inQuotes(id) + ", because " +
                  shortened(refused->file.string(), kSentenceBytes) + " was refused: " + refused->reason};
   }
@@ -178,20 +218,20 @@ Result<const PluginDescription*> PluginRegistry::describe(std::string_view id, P
 
 Result<std::shared_ptr<const Generator>> PluginRegistry::makeGenerator(
     std::string_view id, std::span<const Values::Entry> entries) const {
-  const Result<const PluginDescription*> description = describe(id, PluginKind::generator);
-  if (!description) return description.error();
-  const Result<Values> values = Values::check(find(id)->parameters, entries, id);
+  const Result<std::shared_ptr<const Module>> module = moduleOf(id, PluginKind::generator);
+  if (!module) return module.error();
+  const Result<Values> values = Values::check((*module)->parameters, entries, id);
   if (!values) return values.error();
-  return callMaker<Generator>(description.value()->makeGenerator, values.value(), id);
+  return callMaker<Generator>((*module)->description->makeGenerator, *values, id);
 }
 
 Result<std::shared_ptr<const Filter>> PluginRegistry::makeFilter(
     std::string_view id, std::span<const Values::Entry> entries) const {
-  const Result<const PluginDescription*> description = describe(id, PluginKind::filter);
-  if (!description) return description.error();
-  const Result<Values> values = Values::check(find(id)->parameters, entries, id);
+  const Result<std::shared_ptr<const Module>> module = moduleOf(id, PluginKind::filter);
+  if (!module) return module.error();
+  const Result<Values> values = Values::check((*module)->parameters, entries, id);
   if (!values) return values.error();
-  return callMaker<Filter>(description.value()->makeFilter, values.value(), id);
+  return callMaker<Filter>((*module)->description->makeFilter, *values, id);
 }
 
 }  // namespace teren

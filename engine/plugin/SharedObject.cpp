@@ -65,6 +65,14 @@ Result<void> checkHeader(const Elf64_Ehdr& header) {
   return {};
 }
 
+/// Part of a file's bytes as a type of theirs; a copy, for they may lie at any address.
+template <class Part>
+bool copyPart(std::span<const char> file, std::uint64_t offset, Part& part) noexcept {
+  if (offset > file.size() || sizeof(Part) > file.size() - offset) return false;
+  std::memcpy(&part, file.data() + offset, sizeof(Part));
+  return true;
+}
+
 constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
 /// Where in the file lies what the loader maps at an address; kNone where nothing is mapped.
@@ -135,6 +143,27 @@ Result<void> checkSharedObject(const std::filesystem::path& file) {
     if (!reader.contains(segment.p_offset, segment.p_filesz)) return cutShort();
   }
   return checkSanitizers(neededLibraries(reader, segments));
+}
+
+bool makeUniqueSymbolsWeak(std::span<char> file) noexcept {
+  Elf64_Ehdr header{};
+  if (!copyPart(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return false;
+  if (!checkHeader(header) || header.e_shentsize != sizeof(Elf64_Shdr)) return false;
+  bool any = false;
+  Elf64_Shdr section{};
+  for (std::uint64_t n = 0; n < header.e_shnum; ++n) {
+    if (!copyPart(file, header.e_shoff + n * sizeof(section), section)) break;
+    if (section.sh_type != SHT_DYNSYM) continue;
+    Elf64_Sym symbol{};
+    for (std::uint64_t at = 0; at + sizeof(symbol) <= section.sh_size; at += sizeof(symbol)) {
+      if (!copyPart(file, section.sh_offset + at, symbol)) break;
+      if (ELF64_ST_BIND(symbol.st_info) != STB_GNU_UNIQUE) continue;
+      any = true;
+      symbol.st_info = ELF64_ST_INFO(STB_WEAK, ELF64_ST_TYPE(symbol.st_info));
+      std::memcpy(file.data() + section.sh_offset + at, &symbol, sizeof(symbol));
+    }
+  }
+  return any;
 }
 
 }  // namespace teren

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "teren/Result.h"
 
@@ -12,5 +13,11 @@ namespace teren {
 /// or built with a sanitizer this process does not run with (whose library would end the process).
 /// Reads only headers; costs a few system calls.
 Result<void> checkSharedObject(const std::filesystem::path& file);
+
+/// Of symbols that g++ marks as unique (statics of inline functions and templates that are not hidden) the
+/// loader keeps one in the whole process, so that a second version of a library would use the first one's,
+/// and neither could be unloaded. Rewrites them, in the bytes of a whole file, as ordinary symbols; returns
+/// whether there were any. Bytes that are no shared object for this machine, or damaged, stay as they are.
+bool makeUniqueSymbolsWeak(std::span<char> file) noexcept;
 
 }  // namespace teren

@@ -38,13 +38,36 @@ struct RefusedModule {
   std::string reason;
 };
 
+/// How a module gets from its file into memory.
+enum class ModuleLoading {
+  /// As libraries do: debuggers find its symbols; who overwrites the file changes the running code. A module
+  /// with symbols that the loader would mix with those of other modules (g++ without -fvisibility=hidden) is
+  /// copied all the same.
+  mapped,
+  /// From a copy in memory: the file may be overwritten or removed while the module is in use.
+  copied,
+};
+
+struct Module;
+
 /// The plugins a program can use. Immutable once made, so it may be shared by any threads.
 class PluginRegistry {
  public:
   /// Looks for files named teren-<id>.so in each folder in order; the first of two equal ids wins and the
   /// other is reported as refused. A folder that does not exist is passed over; inside a folder the files are
   /// taken in the order of their names. Loading runs the modules' static initialisers.
-  static std::shared_ptr<const PluginRegistry> load(std::span<const std::filesystem::path> folders);
+  static std::shared_ptr<const PluginRegistry> load(std::span<const std::filesystem::path> folders,
+                                                    ModuleLoading loading = ModuleLoading::mapped);
+
+  /// The same folders as they are now. Modules whose files still hold the same bytes are shared with this
+  /// registry; changed and new ones are loaded from copies, beside what is loaded. Nothing that this registry
+  /// made changes: make the world anew with the new one to see the difference. Each change costs the memory
+  /// of one more module (some 100 KiB) and a file descriptor until the process ends. Error: the file of a
+  /// plugin that this registry has is refused now. A plugin whose file is gone is gone, and no error.
+  Result<std::shared_ptr<const PluginRegistry>> reloaded() const;
+
+  /// The ids, sorted, of plugins that `before` has not, has no longer, or has from another module.
+  std::vector<std::string> changedSince(const PluginRegistry& before) const;
 
   /// The folders of TEREN_PLUGIN_PATH (colon-separated), then the folder "teren/plugins" beside the engine's
   /// shared library (found by its own address, so a foreign program finds it too), then the install prefix.
@@ -72,13 +95,19 @@ class PluginRegistry {
 
  private:
   PluginRegistry() = default;
-  void loadFolder(const std::filesystem::path& folder);
-  void loadFile(const std::filesystem::path& file);
-  /// The description of the plugin with this id and kind, or why there is none.
-  Result<const PluginDescription*> describe(std::string_view id, PluginKind kind) const;
+  /// Modules of `before` are taken over where their files are the same.
+  void loadFolders(ModuleLoading loading, const PluginRegistry* before);
+  void loadFolder(const std::filesystem::path& folder, ModuleLoading loading, const PluginRegistry* before);
+  void loadFile(const std::filesystem::path& file, ModuleLoading loading, const PluginRegistry* before);
+  /// nullptr where no plugin has this id.
+  std::shared_ptr<const Module> module(std::string_view id) const noexcept;
+  const RefusedModule* refusal(std::string_view id) const noexcept;
+  /// The module of the plugin with this id and kind, or why there is none.
+  Result<std::shared_ptr<const Module>> moduleOf(std::string_view id, PluginKind kind) const;
 
+  std::vector<std::filesystem::path> folders_;
   std::vector<PluginInfo> plugins_;
-  std::vector<const PluginDescription*> descriptions_;  // parallel to plugins_, both sorted by id
+  std::vector<std::shared_ptr<const Module>> modules_;  // parallel to plugins_, both sorted by id
   std::vector<RefusedModule> refused_;
 };
 

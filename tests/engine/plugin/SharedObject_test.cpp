@@ -27,10 +27,11 @@ TEST(SharedObject, RefusesAGoodModuleCutAnywhere) {
   const std::size_t step = whole.size() / 97;
   for (std::size_t size = 0; size < whole.size(); size += step) {
     folder.write("teren-flat.so", whole.substr(0, size));
-    EXPECT_FALSE(openModule(folder / "teren-flat.so").ok()) << size << " of " << whole.size() << " bytes";
+    EXPECT_FALSE(openModule(folder / "teren-flat.so", ModuleLoading::mapped).ok())
+        << size << " of " << whole.size() << " bytes";
   }
   folder.write("teren-flat.so", whole.substr(0, whole.size() - 1));
-  EXPECT_FALSE(openModule(folder / "teren-flat.so").ok());
+  EXPECT_FALSE(openModule(folder / "teren-flat.so", ModuleLoading::mapped).ok());
 }
 
 TEST(SharedObject, SaysWhyAFileIsNotAModule) {
