@@ -42,8 +42,9 @@ inline constexpr std::uint64_t kTypeInformationWord = 0;
 #endif
 
 /// The words of the translation unit that includes this header. The alignment of Eigen's fixed vectors goes
-/// from 16 to 32 with -mavx, which changes the layout of anything that holds one.
-inline constexpr AbiWord kAbiWords[] = {
+/// from 16 to 32 with -mavx, which changes the layout of anything that holds one. Not inline: the loader
+/// would take the engine's own words for a module's where symbols are visible, and find them equal.
+constexpr AbiWord kAbiWords[] = {
     {"plugin interface version", kPluginInterfaceVersion},
     {"C++ ABI version", __GXX_ABI_VERSION},
     {"pointer size", sizeof(void*)},

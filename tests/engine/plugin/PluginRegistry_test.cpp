@@ -89,6 +89,9 @@ TEST(PluginRegistry, RefusesEveryBrokenModuleWithItsOwnSentence) {
            std::to_string(kPluginInterfaceVersion + 1) + " in the module and " +
            std::to_string(kPluginInterfaceVersion) + " in the engine"},
       {"teren-other-id.so", "its id is \"something-else\" but its file name says \"other-id\""},
+      {"teren-other-strings.so",
+       "it was built for another binary interface: \"C++11 string ABI\" is 0 in the module and 1 in the "
+       "engine"},
       {"teren-other-words.so",
        "it was built for another binary interface: \"plugin interface version\" is 42 in the module and " +
            std::to_string(kPluginInterfaceVersion) +
