@@ -1,5 +1,6 @@
 #include "generators/steps/Staircase.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -83,6 +84,10 @@ std::unique_ptr<SlicedTask> Staircase::begin(const MapRequest& request, HeightVi
                                                        (static_cast<std::uint64_t>(period_) << kPartBits));
   const std::int64_t west = intervals == 0 ? shift + across / 2 : shift;
   return makeRowTask(out, [staircase = *this, out, west, interval](int row) {
+    if (row > 0) {  // all rows are alike
+      std::copy_n(out.row(0), out.columns(), out.row(row));
+      return;
+    }
     for (int column = 0; column < out.columns(); ++column)
       out(column, row) = staircase.height((west + interval * column) >> kPartBits);
   });

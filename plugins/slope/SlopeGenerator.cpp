@@ -44,9 +44,9 @@ class SlopeGenerator final : public teren::Generator {
     const double north = random.nextBits(1) == 0 ? north_ : -north_;
     // From -1 at the first sample to 1 at the last: exact, for the side is 2^k + 1, so that every level has
     // the bits of the finest. A map of one sample is its middle.
-    const auto pitches = [intervals = request.samples - 1](int sample) {
-      return intervals == 0 ? 0.0 : (2.0 * sample - intervals) / intervals;
-    };
+    const int intervals = request.samples - 1;
+    const double share = intervals == 0 ? 0.0 : 1.0 / intervals;
+    const auto pitches = [=](int sample) { return (2.0 * sample - intervals) * share; };
     return teren::makeRowTask(out, [=](int row) {
       for (int column = 0; column < out.columns(); ++column) {
         out(column, row) = static_cast<float>(east * pitches(column) + north * pitches(row));

@@ -1,15 +1,18 @@
-// Circles and thermal erosion beside their plain versions, and terraces, at four sides; linked into
-// bench-generators.
+// Circles and thermal erosion beside their plain versions, and the small generators beside what bounds them,
+// at four sides; linked into bench-generators.
+#include <algorithm>
+#include <cstddef>
+
 #include <benchmark/benchmark.h>
 
 #include "teren/HeightMap.h"
+#include "teren/PluginRegistry.h"
 
 #include "generators/circles/Circles.h"
 #include "generators/circles/CirclesReference.h"
 #include "generators/fault/FaultFormation.h"
 #include "generators/filter/ThermalFilter.h"
 #include "generators/filter/ThermalReference.h"
-#include "generators/steps/Staircase.h"
 
 namespace teren {
 
@@ -20,6 +23,11 @@ void thermalReferenceO2(const ThermalFilter& filter, double spacing, HeightView 
 void thermalReferenceAvx2(const ThermalFilter& filter, double spacing, HeightView inOut);
 
 namespace {
+
+void allSides(benchmark::internal::Benchmark* benchmark) {
+  for (const int side : {65, 129, 257, 1025}) benchmark->Arg(side);
+  benchmark->Unit(benchmark::kMicrosecond);
+}
 
 void circlesFast(const Circles& circles, const MapRequest& request, HeightView out) {
   circles.begin(request, out)->step(Slice::unlimited());
@@ -38,26 +46,45 @@ void circles(benchmark::State& state) {
     benchmark::DoNotOptimize(map.view().data());
     benchmark::ClobberMemory();
   }
-  state.SetItemsProcessed(state.iterations() * samples * samples);
 }
 
-BENCHMARK(circles<circlesFast>)->Name("circles/fast")->Arg(65)->Arg(129)->Arg(257)->Arg(1025);
-BENCHMARK(circles<circlesReference>)->Name("circles/plain")->Arg(65)->Arg(129)->Arg(257);
-BENCHMARK(circles<circlesReferenceAvx2, true>)->Name("circles/plain-avx2")->Arg(65)->Arg(129)->Arg(257);
+BENCHMARK(circles<circlesFast>)->Name("circles/fast")->Apply(allSides);
+BENCHMARK(circles<circlesReference>)->Name("circles/plain")->Apply(allSides);
+BENCHMARK(circles<circlesReferenceAvx2, true>)->Name("circles/plain-avx2")->Apply(allSides);
 
-void steps(benchmark::State& state) {
+/// A generator that is a plugin and little else, with its defaults.
+void small(benchmark::State& state, const char* id) {
   const auto samples = static_cast<int>(state.range(0));
+  const auto generator = PluginRegistry::standard()->makeGenerator(id, {});
+  if (!generator) return state.SkipWithError(generator.error().message.c_str());
   HeightMap map(samples, samples);
   MapRequest request{.samples = samples};
   for (auto _ : state) {
     ++request.seed;
-    Staircase(2.0, 3, 12).begin(request, map.view())->step(Slice::unlimited());
+    (*generator)->begin(request, map.view())->step(Slice::unlimited());
     benchmark::ClobberMemory();
   }
-  state.SetItemsProcessed(state.iterations() * samples * samples);
 }
 
-BENCHMARK(steps)->Name("steps/fast")->Arg(65)->Arg(129)->Arg(257)->Arg(1025);
+/// What bounds them: writing a map.
+void fill(benchmark::State& state) {
+  const auto samples = static_cast<int>(state.range(0));
+  HeightMap map(samples, samples);
+  float height = 0.0f;
+  for (auto _ : state) {
+    height += 1.0f;
+    std::fill_n(map.view().data(), static_cast<std::size_t>(samples) * static_cast<std::size_t>(samples),
+                height);
+    benchmark::ClobberMemory();
+  }
+}
+
+BENCHMARK_CAPTURE(small, constant, "constant")->Name("constant/fast")->Apply(allSides);
+BENCHMARK(fill)->Name("constant/plain")->Apply(allSides);
+BENCHMARK_CAPTURE(small, slope, "slope")->Name("slope/fast")->Apply(allSides);
+BENCHMARK(fill)->Name("slope/plain")->Apply(allSides);
+BENCHMARK_CAPTURE(small, steps, "steps")->Name("steps/fast")->Apply(allSides);
+BENCHMARK(fill)->Name("steps/plain")->Apply(allSides);
 
 void thermalFast(const ThermalFilter& filter, double spacing, HeightView inOut) {
   filter.begin(spacing, inOut)->step(Slice::unlimited());
@@ -79,17 +106,11 @@ void thermal(benchmark::State& state) {
     sweep(filter, 128.0 / (samples - 1), map.view());
     benchmark::ClobberMemory();
   }
-  state.SetItemsProcessed(state.iterations() * samples * samples);
 }
 
-BENCHMARK(thermal<thermalFast>)->Name("thermal/fast")->Arg(65)->Arg(129)->Arg(257)->Arg(1025);
-BENCHMARK(thermal<thermalReferenceO2>)->Name("thermal/plain-o2")->Arg(65)->Arg(129)->Arg(257)->Arg(1025);
-BENCHMARK(thermal<thermalReferenceAvx2, true>)
-    ->Name("thermal/plain-avx2")
-    ->Arg(65)
-    ->Arg(129)
-    ->Arg(257)
-    ->Arg(1025);
+BENCHMARK(thermal<thermalFast>)->Name("thermal/fast")->Apply(allSides);
+BENCHMARK(thermal<thermalReferenceO2>)->Name("thermal/plain")->Apply(allSides);
+BENCHMARK(thermal<thermalReferenceAvx2, true>)->Name("thermal/plain-avx2")->Apply(allSides);
 
 }  // namespace
 }  // namespace teren

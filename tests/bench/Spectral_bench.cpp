@@ -184,8 +184,8 @@ void printPerSample(const MedianReporter& reporter, const std::string& name, int
     std::printf("%s: %.2f ns per sample\n", name.c_str(), 1e3 * microseconds / (samples * samples));
 }
 
-std::string named(const char* name, int size, int harmonics = 0) {
-  return name + std::to_string(size) + (harmonics > 0 ? "/harmonics" + std::to_string(harmonics) : "");
+std::string named(const char* name, int number) {
+  return std::string(name) + "/" + std::to_string(number);
 }
 
 bool allAgree() {
@@ -204,16 +204,18 @@ void registerAll() {
     return benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMicrosecond);
   };
   for (const int side : kSides) {
-    add(named("transform", side), transform, side);
+    add(named("transform/fast", side), transform, side);
 #ifdef TEREN_BENCH_FFTW
-    add(named("fftw", side), fftw, side);
+    add(named("transform/rival", side), fftw, side);
 #endif
-    add(named("spectral", side + 1), synthesis, side + 1, SpectralRule::isotropic, 32);
-    add(named("published", side + 1), synthesis, side + 1, SpectralRule::published, 32);
+    const auto rule = SpectralRule::isotropic;
+    add(named("spectral/fast", side + 1), synthesis, side + 1, rule, 32);
+    add(named("spectral/plain", side + 1), directSum, side + 1, 32)->Iterations(1);
+    add(named("spectral-published/fast", side + 1), synthesis, side + 1, SpectralRule::published, 32);
   }
   for (const int harmonics : kHarmonics) {
-    add(named("spectral", 257, harmonics), synthesis, 257, SpectralRule::isotropic, harmonics);
-    add(named("direct", 257, harmonics), directSum, 257, harmonics)->Iterations(1);
+    add(named("harmonics/fast", harmonics), synthesis, 257, SpectralRule::isotropic, harmonics);
+    add(named("harmonics/plain", harmonics), directSum, 257, harmonics)->Iterations(1);
   }
 }
 
@@ -227,18 +229,18 @@ int runAll(int argc, char** argv) {
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   for (const int side : kSides) {
-    printPerSample(reporter, named("spectral", side + 1), side + 1);
-    printPerSample(reporter, named("published", side + 1), side + 1);
+    printPerSample(reporter, named("spectral/fast", side + 1), side + 1);
+    printPerSample(reporter, named("spectral-published/fast", side + 1), side + 1);
   }
   for (const int harmonics : kHarmonics) {
-    reporter.printRatio(named("direct", 257, harmonics).c_str(), named("spectral", 257, harmonics).c_str(),
-                        0.0);
+    reporter.printRatio(named("harmonics/plain", harmonics).c_str(),
+                        named("harmonics/fast", harmonics).c_str(), 0.0);
   }
   for (const int side : kSides) {
-    const double mine = reporter.median(named("transform", side)),
-                 rival = reporter.median(named("fftw", side));
+    const double mine = reporter.median(named("transform/fast", side)),
+                 rival = reporter.median(named("transform/rival", side));
     if (rival <= 0.0) continue;
-    std::printf("transform%d / fftw%d = %.2f%s\n", side, side, mine / rival,
+    std::printf("transform/fast/%d / transform/rival/%d = %.2f%s\n", side, side, mine / rival,
                 side == 256 ? " (wanted: at most 2)" : "");
   }
   return 0;
