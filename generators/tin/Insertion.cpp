@@ -127,22 +127,27 @@ Result<Insertion> Triangulation::insert(double x, double y, double height, Trian
 std::vector<VertexId> Triangulation::insert(std::span<const LatticePoint> points,
                                             std::span<const double> heights) {
   assert(points.size() == heights.size());
-  mesh_.reserve(mesh_.vertexSlots() + points.size(), mesh_.triangleSlots() + 2 * points.size());
-  heights_.reserve(heights_.size() + points.size());
+  const bool manyMore = points.size() >= mesh_.vertexCount();
+  if (manyMore) {
+    mesh_.reserve(mesh_.vertexSlots() + points.size(), mesh_.triangleSlots() + 2 * points.size());
+    heights_.reserve(heights_.size() + points.size());
+  }
   std::vector<VertexId> vertices(points.size());
   TriangleId near = kNoTriangle;
   for (const std::uint32_t i : hilbertOrder(points)) {
     assert(frame_.contains(points[i]));
-    const Location place = near == kNoTriangle ? locate(points[i]) : walk(points[i], near);
+    const Location place = near == kNoTriangle || !manyMore ? locate(points[i], near) : walk(points[i], near);
     VertexId v = corners(place.triangle)[place.corner];
     if (place.kind != Location::Kind::vertex) {
       v = newVertex(points[i], heights[i]);
       insertAt(v, place);
+      if (!manyMore) grid_.add(points[i], v);
     }
     vertices[i] = v;
     near = triangleAt(v);
   }
-  rebuildGrid();
+  if (manyMore) mesh_.sortTriangles();
+  if (manyMore || grid_.isCoarseFor(mesh_.vertexCount())) rebuildGrid();
   return vertices;
 }
 

@@ -99,6 +99,11 @@ class TriangleMesh {
     triangles_.reserve(triangles);
   }
 
+  /// Renumbers all triangles so that they lie in memory as their first vertices do; none is free afterwards.
+  /// Where ids of vertices follow a space-filling curve, what is near on the plane is then near in memory.
+  /// O(n).
+  void sortTriangles();
+
   std::size_t vertexSlots() const noexcept { return vertices_.size(); }
   std::size_t triangleSlots() const noexcept { return triangles_.size(); }
   std::size_t vertexCount() const noexcept { return vertices_.size() - freeVertices_; }

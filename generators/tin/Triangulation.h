@@ -141,9 +141,10 @@ class Triangulation {
   /// Snaps a place [m] to the lattice and adds a vertex there. An error where the place is outside the box,
   /// or any of the three is not finite.
   Result<Insertion> insert(double x, double y, double height, TriangleId hint = kNoTriangle);
-  /// Adds many vertices in an order of its own, several times faster than one by one; ids are new and follow
-  /// a space-filling curve. As many heights as points; of equal points the one that comes first counts.
-  /// Returns the vertex of each point.
+  /// Adds many vertices in an order of its own, several times faster than one by one; their ids follow a
+  /// space-filling curve. As many heights as points; of equal points the one that comes first counts. Where
+  /// they are no fewer than the vertices there were, all triangles are renumbered so that near ones are near
+  /// in memory. Returns the vertex of each point.
   std::vector<VertexId> insert(std::span<const LatticePoint> points, std::span<const double> heights);
 
   /// Takes a vertex away and closes the gap. False, and nothing changes, where it is one of the box's corners

@@ -64,7 +64,7 @@ LatticePoint RandomProgram::randomPoint() {
       return {2 * t, side_ - 3 * t};
     }
     case PointKind::spiral: {
-      const double turn = 0.1 * upTo(400);
+      const double turn = 0.0005 * upTo(80000);
       const double radius = side_ / 2.1 * turn / 40.0;
       return {inBox(side_ / 2.0 + radius * std::cos(turn)), inBox(side_ / 2.0 + radius * std::sin(turn))};
     }

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/generators/tin/CgalOracle.h"
+
 namespace teren {
 namespace {
 
@@ -32,10 +34,13 @@ void runProved(PointKind kind, std::uint64_t seed, std::size_t vertices, std::in
     ASSERT_EQ(program.complaint(), "") << where;
     const Result<void> proof = program.mesh().validate();
     ASSERT_TRUE(proof.ok()) << where << ": " << proof.error().message;
+    if (n % 20 == 0 || n == steps - 1) {
+      ASSERT_EQ(test::differenceFromCgal(program.mesh()), "") << where;
+    }
   }
 }
 
-TEST_P(RandomPrograms, LeaveAMeshThatCanBeProvedAfterEveryOperation) {
+TEST_P(RandomPrograms, LeaveAMeshThatCanBeProvedAfterEveryOperationAndEqualsCgals) {
   const int steps = longVersion() ? 20000 : 500;
   // A box of few steps is full of equal points, and of crossings that are rounded onto something.
   for (const std::int32_t side : {20, 300, 1 << 24, kLatticeSide}) {
@@ -46,7 +51,7 @@ TEST_P(RandomPrograms, LeaveAMeshThatCanBeProvedAfterEveryOperation) {
   }
 }
 
-TEST_P(RandomPrograms, LeaveALargeMeshThatCanBeProvedAroundEveryOperation) {
+TEST_P(RandomPrograms, LeaveALargeMeshThatCanBeProvedAroundEveryOperationAndEqualsCgals) {
   constexpr std::uint64_t kSeed = 7;
   RandomProgram program(kSeed, GetParam(), 5000);
   std::vector<LatticePoint> points(4000);
@@ -63,6 +68,7 @@ TEST_P(RandomPrograms, LeaveALargeMeshThatCanBeProvedAroundEveryOperation) {
   }
   const Result<void> proof = program.mesh().validate();
   EXPECT_TRUE(proof.ok()) << "seed " << kSeed << ": " << proof.error().message;
+  EXPECT_EQ(test::differenceFromCgal(program.mesh()), "") << "seed " << kSeed;
 }
 
 TEST_P(RandomPrograms, ReportEveryTriangleThatComesOrGoes) {

@@ -1,0 +1,58 @@
+#include "tests/generators/tin/CgalOracle.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <vector>
+
+namespace teren::test {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Oracle = CGAL::Constrained_Delaunay_triangulation_2<Kernel>;
+
+std::string edgeName(VertexId a, VertexId b) {
+  return std::to_string(a) + " - " + std::to_string(b);
+}
+
+/// The corners opposite the edge between corners i + 1 and i + 2 of t lie on one circle with its ends.
+bool isTie(const Triangulation& mesh, TriangleId t, int i) {
+  const TriangleId u = mesh.neighbour(t, i);
+  if (u == kNoTriangle) return false;
+  const std::array<VertexId, 3>& here = mesh.corners(t);
+  VertexId opposite = kNoVertex;
+  for (const VertexId v : mesh.corners(u)) {
+    if (v != here[following(i)] && v != here[preceding(i)]) opposite = v;
+  }
+  return inCircleDeterminant(mesh.point(here[0]), mesh.point(here[1]), mesh.point(here[2]),
+                             mesh.point(opposite)) == 0;
+}
+
+}  // namespace
+
+std::string differenceFromCgal(const Triangulation& mesh) {
+  Oracle oracle;
+  std::vector<Oracle::Vertex_handle> handles(mesh.vertexSlots());
+  for (VertexId v = mesh.vertexSlots(); v-- > 0;) {  // not in the order in which they came
+    if (mesh.isVertex(v)) handles[v] = oracle.insert({mesh.point(v).x, mesh.point(v).y});
+  }
+  mesh.forEachConstraint(
+      [&](VertexId a, VertexId b, std::uint32_t) { oracle.insert_constraint(handles[a], handles[b]); });
+  if (oracle.number_of_vertices() != mesh.vertexCount()) return "another number of vertices";
+  if (oracle.number_of_faces() != mesh.triangleCount()) return "another number of triangles";
+  for (TriangleId t = 0; t < mesh.triangleSlots(); ++t) {
+    if (!mesh.isTriangle(t)) continue;
+    for (int i = 0; i < 3; ++i) {
+      const VertexId a = mesh.corners(t)[following(i)], b = mesh.corners(t)[preceding(i)];
+      Oracle::Face_handle face;
+      int side = 0;
+      if (!oracle.is_edge(handles[a], handles[b], face, side)) {
+        if (mesh.constraint(a, b) || !isTie(mesh, t, i)) return "no edge " + edgeName(a, b);
+      } else if (face->is_constrained(side) != mesh.constraint(a, b).has_value()) {
+        return "another constraint " + edgeName(a, b);
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace teren::test
