@@ -32,8 +32,14 @@ bool isTie(const Triangulation& mesh, TriangleId t, int i) {
 std::string differenceFromCgal(const Triangulation& mesh) {
   Oracle oracle;
   std::vector<Oracle::Vertex_handle> handles(mesh.vertexSlots());
-  for (VertexId v = mesh.vertexSlots(); v-- > 0;) {  // not in the order in which they came
-    if (mesh.isVertex(v)) handles[v] = oracle.insert({mesh.point(v).x, mesh.point(v).y});
+  const auto insert = [&](VertexId v, Oracle::Face_handle hint) {
+    handles[v] = oracle.insert({mesh.point(v).x, mesh.point(v).y}, hint);
+    return handles[v]->face();
+  };
+  Oracle::Face_handle hint;
+  for (VertexId corner = 0; corner < 4; ++corner) hint = insert(corner, hint);
+  for (VertexId v = mesh.vertexSlots(); v-- > 4;) {  // not in the order in which they came
+    if (mesh.isVertex(v)) hint = insert(v, hint);
   }
   mesh.forEachConstraint(
       [&](VertexId a, VertexId b, std::uint32_t) { oracle.insert_constraint(handles[a], handles[b]); });

@@ -172,17 +172,21 @@ void RandomProgram::step() {
   touched_.clear();
   complaint_.clear();
   const std::uint64_t dice = random_.next() % 100;
+  if (mesh_.vertexCount() > vertices_ + vertices_ / 5) {  // crossings add more than is wanted, and hold it
+    dice < 50 ? unconstrainOne() : removeOne();
+    return;
+  }
   // Grows to the wanted size, shrinks to a third of it, and so on.
   const bool grows = mesh_.vertexCount() < vertices_ / 3 + random_.next() % (vertices_ + 1);
   if (dice < 3 && grows) {
     insertMany();
-  } else if (dice < 55) {
+  } else if (dice < 60) {
     grows ? insertOne() : removeOne();
-  } else if (dice < 65) {
+  } else if (dice < 70) {
     removeOne();
-  } else if (dice < 75) {
+  } else if (dice < 80) {
     constrainOne();
-  } else if (dice < 90) {
+  } else if (dice < 93) {
     unconstrainOne();
   } else {
     locateOne();
