@@ -1,0 +1,184 @@
+#include "generators/sand/Stamper.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/generators/sand/Heaps.h"
+
+namespace teren {
+namespace {
+
+double hills(double x, double y) {
+  return 0.1 * (x - 0.3) * (x - 0.3) - 0.15 * y * y;
+}
+double level(double, double) {
+  return 0.0;
+}
+
+const ToolShape kRound = *ToolShape::disc(0.04, 0.1);
+
+SixfoldVolume sizeOfOwed(const SandSurface& surface) {
+  return surface.owed() < 0 ? -surface.owed() : surface.owed();
+}
+
+TEST(Stamper, KeepsTheVolumeOfEveryStampExactly) {
+  SandSurface surface = scatteredSand(2'000, 31, 5.0, hills);
+  const SixfoldVolume all = surface.volume();
+  Stamper stamper({});
+  RandomSequence random(32);
+  const std::vector<ToolPoint> hook{{-0.04, -0.04}, {0.04, -0.04}, {0.04, 0.04},  {-0.04, 0.04},
+                                    {-0.04, 0.02},  {0.02, 0.02},  {0.02, -0.02}, {-0.04, -0.02}};
+  const ToolShape tools[] = {kRound,
+                             *ToolShape::square(0.06, 0.05),
+                             *ToolShape::rake(0.1, 0.05, 3),
+                             *ToolShape::wedge(0.06, 0.08),
+                             *ToolShape::ball(0.06, 0.04),
+                             *ToolShape::polygon(hook, 0.05)};
+  for (int n = 0; n < 120; ++n) {
+    StampPlace place{0.2 + 0.6 * uniform(random.next()), 0.2 + 0.6 * uniform(random.next()), 0.0, 0.0, 0.0};
+    if (n % 3 != 0) {
+      place.directionX = n % 3 == 1 ? 0.6 : -0.28;
+      place.directionY = n % 3 == 1 ? -0.8 : 0.96;
+    }
+    const Result<StampReport> report = stamper.stamp(surface, tools[n % 6], place);
+    ASSERT_TRUE(report) << report.error().message;
+    ASSERT_TRUE(surface.volume() + surface.owed() == all) << n;
+    std::int64_t most = 0;
+    for (VertexId v = 0; v < surface.mesh().vertexSlots(); ++v) {
+      if (surface.mesh().isVertex(v)) most = std::max(most, surface.weight(v));
+    }
+    ASSERT_TRUE(2 * sizeOfOwed(surface) <= most) << n;
+    const Result<void> sound = surface.validate();
+    ASSERT_TRUE(sound) << n << ": " << sound.error().message;
+  }
+}
+
+TEST(Stamper, PressesItsFormIntoLevelGround) {
+  SandSurface surface = scatteredSand(3'000, 33, 5.0, level);
+  Stamper stamper({});
+  const Result<StampReport> report = stamper.stamp(surface, kRound, {0.5, 0.5, 0.0});
+  ASSERT_TRUE(report);
+  EXPECT_GT(report->removed, 5);
+  const double disc = 12 * 0.5 * 0.04 * 0.04 * 0.5;  // twelve triangles of 30 degrees
+  EXPECT_GT(report->displaced, 0.9 * disc * 0.1);
+  EXPECT_LT(report->displaced, disc * 0.1);
+  for (const double r : {0.0, 0.01, 0.02, 0.03, 0.036}) {
+    const auto p = surface.mesh().frame().snap(0.5 + 0.8 * r, 0.5 - 0.6 * r);
+    EXPECT_NEAR(metresFromTicks(surface.heightAt(*p, 0)), -0.1, 1e-9) << r;
+  }
+  for (VertexId v = 0; v < surface.mesh().vertexSlots(); ++v) {
+    if (!surface.mesh().isVertex(v)) continue;
+    const double x = surface.mesh().frame().placeX(surface.mesh().point(v)) - 0.5;
+    const double y = surface.mesh().frame().placeY(surface.mesh().point(v)) - 0.5;
+    const double distance = std::sqrt(x * x + y * y);
+    if (distance > 0.12) {
+      ASSERT_EQ(surface.height(v), 0) << "far ground moved";
+    } else if (distance > 0.0399) {
+      ASSERT_GE(surface.height(v), 0) << "a berm rises";
+    }
+  }
+}
+
+TEST(Stamper, HeapsUpAheadMoreThanBesideAndNothingBehind) {
+  SandSurface surface = scatteredSand(5'000, 34, 5.0, level);
+  Stamper stamper({});
+  ASSERT_TRUE(stamper.stamp(surface, kRound, {0.5, 0.5, 0.0, 1.0, 0.0}));
+  double ahead = 0.0, beside = 0.0, behind = 0.0;
+  for (VertexId v = 0; v < surface.mesh().vertexSlots(); ++v) {
+    if (!surface.mesh().isVertex(v) || surface.height(v) <= 0) continue;
+    const double x = surface.mesh().frame().placeX(surface.mesh().point(v)) - 0.5;
+    const double y = std::fabs(surface.mesh().frame().placeY(surface.mesh().point(v)) - 0.5);
+    double& sum = x > y ? ahead : x < -y ? behind : beside;
+    sum += metresFromTicks(surface.height(v)) * static_cast<double>(surface.weight(v));
+  }
+  EXPECT_GT(ahead, beside);
+  EXPECT_GT(beside, 0.0);
+  EXPECT_EQ(behind, 0.0);
+}
+
+TEST(Stamper, DigsAndNeverFills) {
+  SandSurface surface = scatteredSand(1'000, 35, 5.0, [](double x, double) { return x < 0.5 ? -1.0 : 0.0; });
+  Stamper stamper({});
+  const Result<StampReport> report = stamper.stamp(surface, kRound, {0.25, 0.5, 0.0});
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->displaced, 0.0, 1e-12);
+  EXPECT_NEAR(metresFromTicks(surface.heightAt(*surface.mesh().frame().snap(0.25, 0.5), 0)), -1.0, 1e-12);
+}
+
+TEST(Stamper, KeepsWhatIsDeeperThanTheTool) {
+  SandSurface surface = scatteredSand(300, 36, 5.0, level);
+  const VertexId pit = surface.insert(*surface.mesh().frame().snap(0.51, 0.5));
+  surface.raise(pit, ticksFromMetres(-0.3));
+  const LatticePoint at = surface.mesh().point(pit);
+  Stamper stamper({});
+  ASSERT_TRUE(stamper.stamp(surface, kRound, {0.5, 0.5, 0.0}));
+  ASSERT_TRUE(surface.mesh().isVertex(pit));
+  EXPECT_EQ(surface.mesh().point(pit), at);
+  EXPECT_EQ(surface.height(pit), ticksFromMetres(-0.3));
+}
+
+TEST(Stamper, LoosensWhatItCutsAndNothingElse) {
+  SandSurface surface = scatteredSand(2'000, 37, 0.0, level);
+  Stamper stamper({});
+  ASSERT_TRUE(stamper.stamp(surface, kRound, {0.5, 0.5, 0.0}));
+  const auto bottom = surface.mesh().locate(*surface.mesh().frame().snap(0.5, 0.5));
+  for (const VertexId v : surface.mesh().corners(bottom.triangle)) {
+    EXPECT_EQ(surface.loose(v), ticksFromMetres(StampSettings{}.loosening));
+    EXPECT_LT(surface.solid(v), ticksFromMetres(-0.1));
+  }
+  EXPECT_EQ(surface.loose(0), 0);
+}
+
+TEST(Stamper, DissolvesTheConstraintsOfOlderStampsUnderIt) {
+  SandSurface surface = scatteredSand(500, 38, 5.0, level);
+  Stamper stamper({});
+  ASSERT_TRUE(stamper.stamp(surface, *ToolShape::disc(0.02, 0.05), {0.5, 0.5, 0.0}));
+  const std::size_t small = surface.mesh().constraintCount();
+  ASSERT_TRUE(stamper.stamp(surface, kRound, {0.5, 0.5, 0.0}));
+  EXPECT_EQ(surface.mesh().constraintCount(), small) << "the outlines of the second alone";
+}
+
+TEST(Stamper, DividesItsOutlineWhereTheGroundBends) {
+  SandSurface flat = scatteredSand(3'000, 39, 5.0, level);
+  SandSurface rough =
+      scatteredSand(3'000, 39, 5.0, [](double x, double y) { return (x < 0.5) == (y < 0.5) ? 0.05 : 0.0; });
+  Stamper one({}), other({});
+  const ToolShape large = *ToolShape::square(0.3, 0.1);
+  EXPECT_EQ(one.stamp(flat, large, {0.5, 0.5, 0.0})->contour, 8);
+  EXPECT_GT(other.stamp(rough, large, {0.5, 0.5, 0.0})->contour, 20);
+}
+
+TEST(Stamper, RefusesImpossiblePlacesAndChangesNothing) {
+  SandSurface surface = scatteredSand(100, 40, 5.0, level);
+  Stamper stamper({});
+  const double nan = std::nan("");
+  for (const StampPlace& place : {StampPlace{0.01, 0.5, 0.0},
+                                  {0.5, 2.0, 0.0},
+                                  {nan, 0.5, 0.0},
+                                  {0.5, 0.5, nan},
+                                  {0.5, 0.5, 0.0, 1.0, 1.0},
+                                  {1e300, 0.5, 0.0}}) {
+    EXPECT_FALSE(stamper.stamp(surface, kRound, place));
+  }
+  EXPECT_FALSE(stamper.stamp(surface, *ToolShape::disc(2e-6, 1.0), {0.5, 0.5, 0.0}))
+      << "smaller than the lattice";
+  EXPECT_EQ(surface.mesh().vertexCount(), 100U);
+  EXPECT_TRUE(surface.changedVertices().ids().empty());
+}
+
+TEST(Stamper, SpacesStampsByTheSpeedOfTheDrag) {
+  EXPECT_EQ(stampSpacing(0.0, kRound), kRound.reach() / 8);
+  EXPECT_NEAR(stampSpacing(0.6, kRound), 0.01, 1e-15);
+  EXPECT_EQ(stampSpacing(100.0, kRound), kRound.reach() / 2);
+  const std::vector<StampPlace> places = stampsAlong({0.0, 0.0, 1.0}, {0.3, 0.4, 2.0}, 0.11);
+  ASSERT_EQ(places.size(), 5U);
+  EXPECT_EQ(places.back().x, 0.3);
+  EXPECT_EQ(places.back().height, 2.0);
+  EXPECT_NEAR(places.front().y, 0.08, 1e-15);
+  EXPECT_NEAR(places[2].directionX, 0.6, 1e-15);
+  EXPECT_TRUE(stampsAlong({}, {}, 0.1).empty());
+}
+
+}  // namespace
+}  // namespace teren
