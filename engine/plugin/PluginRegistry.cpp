@@ -174,7 +174,7 @@ void PluginRegistry::loadFile(const fs::path& file, ModuleLoading loading, const
 
 std::shared_ptr<const PluginRegistry> PluginRegistry::loadModule(const fs::path& file) {
   const std::shared_ptr<PluginRegistry> registry(new PluginRegistry);
-  registry->loadFile(file);
+  registry->loadFile(file, ModuleLoading::mapped, nullptr);
   return registry;
 }
 
