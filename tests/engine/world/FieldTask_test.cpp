@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "teren/HeightMapOperations.h"
 #include "teren/StepLimit.h"
 
 #include "tests/engine/world/RandomDraws.h"
@@ -59,6 +60,7 @@ Outcome outcomeOf(Begin begin, int columns, int rows, const Slice& slice = Slice
   const auto messages = std::make_shared<MessageBox>();
   const Layer layer = makeTestLayer({}, std::make_shared<ToldField>(std::move(begin)), {}, messages);
   HeightMap heights(columns, rows);
+  fillHeights(heights.view(), 17.0F);  // what an earlier layer left there, say
   FieldTask task(layer, layer.fieldRequest({.i = 3, .j = -4}, 0, columns, rows), heights.view());
   test::finish(task, slice);
   return {std::move(heights), task.failed(), messages->take()};

@@ -266,6 +266,21 @@ TEST(WorldFields, QueriesTakeTheErrorThatTheGeneratorPromisesForTheSpacingOfLeve
   }
 }
 
+TEST(WorldFields, QueriesCountTheRoundingOfSamplesToFloat) {
+  // Two high layers that cancel each other: little ground is left, of samples 0.06 m apart.
+  LayerDescription up = field(64.0, 0.05, 64.0), down = up;
+  up.parameters[0] = {"mean", 1e6};
+  down.parameters[0] = {"mean", -1e6};
+  const auto world = makeTestWorld(worldOf({up, down}));
+  double worst = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const SurfacePoint point = world->query({k, -k, 0.013 + k * 0.0009, 0.5});
+    ASSERT_LE(std::fabs(point.height - point.drawn), point.error);
+    worst = std::max(worst, std::fabs(point.height - point.drawn) / point.error);
+  }
+  EXPECT_GE(worst, 0.1) << "an idle bound";
+}
+
 TEST(WorldFields, QueriesPromiseNoLargerErrorThanHeightsCanDiffer) {
   const auto world = makeTestWorld(worldOf({hostileField("way", "error-idle")}));
   EXPECT_NEAR(world->query({5, 6, 0.3, 0.7}).error, 25.0, 1e-3);
