@@ -49,6 +49,13 @@ std::vector<Setting> typicalSettings(const PluginInfo& info) {
     settings.push_back({{"talus", 5.0}, {"passes", std::int64_t{5}}});
     settings.push_back({{"talus", 0.0}, {"passes", std::int64_t{3}}});
   }
+  if (info.id == "noise") {
+    settings.push_back({{"kind", std::string("simplex")}, {"frequency", 0.02}});
+    settings.push_back({{"fractal", std::string("ridged")}, {"hurst", 0.5}, {"warp", 50.0}});
+    settings.push_back(
+        {{"fractal", std::string("billow")}, {"frequency", 0.05}, {"octaves", std::int64_t{3}}});
+    settings.push_back({{"frequency", 1e-3}, {"lacunarity", 3.0}, {"warp", 500.0}});
+  }
   if (info.id == "midpoint") {
     for (double hurst : {0.2, 0.5}) settings.push_back({{"hurst", hurst}});
     settings.push_back({{"m11", 0.75}, {"m22", std::string("randN")}, {"m23", std::string("randR")}});
@@ -155,8 +162,8 @@ TEST(Plugins, TakeMatricesOfAnyOddSideAndRefuseOthersWithASentence) {
 }
 
 TEST(Plugins, AreAllFoundAndNoneIsRefused) {
-  for (const char* id : {"band", "circles", "constant", "fault", "matrix", "midpoint", "slope", "spectral",
-                         "steps", "thermal"})
+  for (const char* id : {"band", "circles", "constant", "fault", "matrix", "midpoint", "noise", "slope",
+                         "spectral", "steps", "thermal"})
     EXPECT_NE(registry().find(id), nullptr) << id;
   for (const RefusedModule& module : registry().refused())
     ADD_FAILURE() << module.file << ": " << module.reason;
