@@ -155,7 +155,6 @@ class NoiseTask final : public SlicedTask {
     const WideWord x = east * lattice.straight + lattice.phaseX, y = east * lattice.across;
     octave.rowX = north * lattice.across;
     octave.rowY = north * lattice.straight + lattice.phaseY;
-    octave.hashed = false;
     const auto margin = static_cast<std::uint64_t>(octave.warpCells) + 1;
     row.keysX = axisKeysFrom(cellOf(x) + cellOf(octave.rowX) - margin, lattice.seedX);
     row.keysY = axisKeysFrom(cellOf(y) + cellOf(octave.rowY) - margin, lattice.seedY);
