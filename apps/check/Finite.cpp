@@ -1,8 +1,6 @@
 #include <cmath>
 #include <limits>
 
-#include "teren/Parameter.h"
-
 #include "apps/check/Counterexample.h"
 #include "apps/check/MapMaker.h"
 #include "apps/check/Properties.h"
@@ -42,14 +40,18 @@ class Finite final : public Property {
   }
 
  private:
+  static std::string text(const MapMaker& maker, float height) {
+    if (!std::isnan(height)) return height > 0.0f ? "infinity" : "minus infinity";
+    return maker.filters() ? "NaN" : "NaN, as it was before the map was begun";
+  }
+
   static void look(const MapMaker& maker, const MapRequest& request) {
     const HeightMap map = maker.make(request);
     for (int row = 0; row < map.rows(); ++row) {
       for (int column = 0; column < map.columns(); ++column) {
         if (std::isfinite(map(column, row))) continue;
         throw Counterexample{maker.place(request) + ": sample (" + std::to_string(column) + ", " +
-                             std::to_string(row) + ") is " + numberText(map(column, row)) + " m" +
-                             (maker.filters() ? "" : "; it was NaN before the map was begun")};
+                             std::to_string(row) + ") is " + text(maker, map(column, row))};
       }
     }
   }

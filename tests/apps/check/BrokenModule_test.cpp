@@ -1,0 +1,112 @@
+// The checker itself: sound modules keep every property, and each broken module breaks its own and no other,
+// with a counter-example that says what is wrong.
+#include <algorithm>
+#include <memory>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "teren/PluginRegistry.h"
+
+#include "apps/check/Property.h"
+#include "apps/check/Subject.h"
+
+namespace teren::check {
+namespace {
+
+/// A module that is not there, or is refused, stops the test.
+std::unique_ptr<Subject> subject(const std::string& id) {
+  const auto registry = PluginRegistry::loadModule(TEREN_TEST_CHECK_MODULES "/teren-" + id + ".so");
+  if (registry->find(id) == nullptr) throw std::runtime_error(registry->refused().front().reason);
+  return std::make_unique<Subject>(registry, id);
+}
+
+std::string testName(std::string name) {
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+class SoundModule : public testing::TestWithParam<const char*> {};
+
+TEST_P(SoundModule, KeepsEveryProperty) {
+  const auto module = subject(GetParam());
+  for (const Property* property : contract()) {
+    const Finding finding = property->check(*module, Effort::quick());
+    EXPECT_TRUE(finding.holds) << property->name() << ": " << finding.text;
+    EXPECT_NE(finding.text, "") << property->name();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, SoundModule, testing::Values("sound", "sound-field", "sound-filter"),
+                         [](const auto& test) { return testName(test.param); });
+
+struct Breach {
+  std::string module, property;
+  std::vector<std::string> needles;
+};
+
+void PrintTo(const Breach& breach, std::ostream* stream) {
+  *stream << breach.module;
+}
+
+std::vector<Breach> breaches() {
+  return {
+      {"no-completion", "completion", {"with defaults", "5 x 5 samples", "threw \"too small\""}},
+      {"no-end", "completion", {"5 x 5 samples", "not done after 52800 steps"}},
+      {"no-slicing", "slicing", {"sample (0, 0)", "made in one step", "over from the start"}},
+      {"no-order", "order", {"33 x 33 samples", "sample (0, 0)", "made alone", "in turn with others"}},
+      {"no-threads", "threads", {"made by one thread but 0 m", "stepped by others"}},
+      {"no-parallel", "parallel", {"made by one thread alone", "while other threads made other maps"}},
+      {"no-slice-length", "slice-length", {"257 x 257 samples", "slices asked for 100 us used"}},
+      {"no-finite", "finite", {"seed 0,", "sample (0, 0) is NaN, as it was before"}},
+      {"no-writing", "finite", {"seed 0,", "sample (2, 2) is NaN, as it was before"}},
+      {"no-range", "range", {"sample (", "m, promised is -1 to 1 m"}},
+      {"no-mean", "mean", {"the mean over the map is 0.1", "of 0 m over 250 seeds"}},
+      {"no-deviation", "deviation", {"the deviation over the map is 1.2", "of 1 m over 250 seeds"}},
+      {"no-residual", "residual", {"level 1 of 65 samples a side is wrong by 1.", "promised is 0.5"}},
+      {"no-levels", "levels", {"level 1,", "at this level but", "in the finest map"}},
+      {"no-field", "field", {"with defaults at (0 + 0.25, 7 + 0.5) pitches", "in this rectangle but"}},
+      {"no-field-error", "field-error", {"0.0625 m", "from the triangles", "promised is"}},
+      {"no-parameters", "parameters", {"with deviation = 2, which its table allows", "two are too many"}},
+      {"no-margins", "margins", {"7 m was written beside the map, at sample (1, 0)"}},
+      {"no-cancellation", "cancellation", {"made before", "begun after a task was given up after 0 steps"}},
+      {"no-memory", "memory", {"with defaults: after 320 maps", "more after each further map"}},
+      {"no-allocation", "allocation", {"9 x 9 samples", "step number 2 allocates 1 time"}},
+  };
+}
+
+class BrokenModule : public testing::TestWithParam<Breach> {};
+
+TEST_P(BrokenModule, BreaksItsPropertyAndNoOther) {
+  const auto module = subject(GetParam().module);
+  for (const Property* property : contract()) {
+    const Finding finding = property->check(*module, Effort::quick());
+    EXPECT_EQ(finding.holds, property->name() != GetParam().property)
+        << property->name() << ": " << finding.text;
+    if (finding.holds) continue;
+    for (const std::string& needle : GetParam().needles) {
+      EXPECT_NE(finding.text.find(needle), std::string::npos) << needle << " in: " << finding.text;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, BrokenModule, testing::ValuesIn(breaches()),
+                         [](const auto& test) { return testName(test.param.module); });
+
+TEST(Contract, HasABrokenModuleForEachProperty) {
+  for (const Property* property : contract()) {
+    const std::vector<Breach> all = breaches();
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Breach& breach) {
+      return breach.property == property->name();
+    })) << property->name();
+    EXPECT_EQ(findProperty(property->name()), property);
+    EXPECT_TRUE(property->demand().ends_with('.')) << property->name();
+  }
+  EXPECT_EQ(findProperty("no such property"), nullptr);
+}
+
+}  // namespace
+}  // namespace teren::check
