@@ -10,13 +10,17 @@ inline constexpr double kMoistureGain = 15.0;  // [degree]
 /// A face slides where it is steeper than the angle of repose by this, and then to the angle itself; so one
 /// face's slide does not start its neighbours', and nothing oscillates.
 inline constexpr double kSlideThreshold = 0.05;  // [degree]
+/// Long edges are divided where a face is steeper by this. What lies between slides little, and would be
+/// divided for nothing: a clean-up would take the vertex away, and so on for ever.
+inline constexpr double kDivideThreshold = 2.0;  // [degree]
 /// What is promised: once all is at rest no loose face is steeper than the angle of repose by more than this.
 inline constexpr double kReposeTolerance = 0.1;  // [degree]
 
-/// The slopes at which loose material starts to slide and at which it comes to rest, as tangents.
+/// The slopes at which loose material comes to rest, starts to slide, and divides long edges; as tangents.
 struct Repose {
   double rest = 0.0;
   double start = 0.0;
+  double divide = 0.0;
   friend bool operator==(const Repose&, const Repose&) = default;
 };
 

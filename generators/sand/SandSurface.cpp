@@ -156,6 +156,20 @@ VertexId SandSurface::insert(LatticePoint p, TriangleId hint) {
   return v;
 }
 
+VertexId SandSurface::divide(VertexId a, VertexId b) {
+  const LatticePoint from = mesh_.point(a), to = mesh_.point(b);
+  const LatticePoint p{(from.x + to.x) >> 1, (from.y + to.y) >> 1};
+  if (mesh_.vertexAt(p, mesh_.triangleAt(a)) != kNoVertex) return kNoVertex;
+  const auto id = mesh_.constraint(a, b);
+  if (id) unconstrain(a, b);  // it may pass half a step beside
+  const VertexId between = insert(p, mesh_.triangleAt(a));
+  if (id) {
+    constrain(a, between, *id);
+    constrain(between, b, *id);
+  }
+  return between;
+}
+
 bool SandSurface::remove(VertexId v) {
   const Gone gone{v, mesh_.point(v), height(v)};
   begin();

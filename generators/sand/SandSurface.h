@@ -59,6 +59,9 @@ class SandSurface {
 
   /// Adds a vertex on the surface, or finds the one that is there.
   VertexId insert(LatticePoint p, TriangleId hint = kNoTriangle);
+  /// Adds a vertex in the middle of an edge, to the nearest step; a constraint goes through it. kNoVertex,
+  /// and nothing changes, where there is one already.
+  VertexId divide(VertexId a, VertexId b);
   /// False, and nothing changes, at a corner of the box or the end of a constrained edge.
   bool remove(VertexId v);
   /// As Triangulation::constrain; vertices at crossings are put on the surface.

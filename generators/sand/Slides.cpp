@@ -8,10 +8,6 @@ namespace {
 
 constexpr double kShortestLimit = 8.0;  // [steps]
 
-LatticePoint middle(LatticePoint a, LatticePoint b) noexcept {
-  return {static_cast<std::int32_t>((a.x + b.x) >> 1), static_cast<std::int32_t>((a.y + b.y) >> 1)};
-}
-
 double squaredLength(LatticePoint a, LatticePoint b) noexcept {
   const double x = b.x - a.x, y = b.y - a.y;
   return x * x + y * y;
@@ -47,10 +43,11 @@ bool Slides::advance(SandSurface& surface, std::uint64_t steps) {
 
 void Slides::look(SandSurface& surface, TriangleId t) {
   Face face = surface.unweighedFace(t);
-  if (!(slopeOf(face, surface.step()) > repose_.start)) return;
+  const double slope = slopeOf(face, surface.step());
+  if (!(slope > repose_.start)) return;
   const auto bears = [](const FaceCorner& corner) { return corner.loose > kBareTicks; };
   if (std::none_of(face.begin(), face.end(), bears)) return;
-  if (divideEdges(surface, t, face)) return;
+  if (slope > repose_.divide && divideEdges(surface, t, face)) return;
   const std::array<VertexId, 3> corners = surface.mesh().corners(t);
   for (std::size_t i = 0; i < 3; ++i) face[i].weight = surface.weight(corners[i]);
   const auto move = slideFace(face, repose_, surface.step(), surface.ledger());
@@ -83,15 +80,17 @@ bool Slides::divideEdgesAt(SandSurface& surface, VertexId v) {
   surface.mesh().forEachNeighbour(v, [&](VertexId n) {
     if (squaredLength(surface.mesh().point(v), surface.mesh().point(n)) > limit * limit) far_.push_back(n);
   });
+  bool divided = false;
   for (const VertexId n : far_) {
     if (!surface.mesh().isEdge(v, n)) continue;  // flipped away by one divided before
-    const LatticePoint p = middle(surface.mesh().point(v), surface.mesh().point(n));
-    const VertexId between = surface.insert(p, surface.mesh().triangleAt(v));
+    const VertexId between = surface.divide(v, n);
+    if (between == kNoVertex) continue;
     surface.settle({&between, 1});
     addAround(surface, between);
     ++count_.splits;
+    divided = true;
   }
-  return !far_.empty();
+  return divided;
 }
 
 std::size_t Slides::bytes() const noexcept {

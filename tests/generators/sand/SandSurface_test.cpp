@@ -112,6 +112,19 @@ TEST(SandSurface, LosesLooseMaterialBeforeSolid) {
   EXPECT_EQ(surface.solid(0), ticksFromMetres(0.375));
 }
 
+TEST(SandSurface, DividesAConstrainedEdgeIntoConstrainedEdges) {
+  SandSurface surface(boxOf(20, 0x1p-20), 0.0, 1.0);
+  const VertexId a = surface.insert({100'001, 200'002}), b = surface.insert({700'006, 900'001});
+  surface.constrain(a, b, 9);
+  const VertexId between = surface.divide(a, b);
+  ASSERT_NE(between, kNoVertex);
+  EXPECT_EQ(surface.mesh().constraint(a, between), 9U);
+  EXPECT_EQ(surface.mesh().constraint(between, b), 9U);
+  EXPECT_EQ(surface.mesh().constraintCount(), 2U);
+  const VertexId beside = surface.insert({100'002, 200'002});
+  EXPECT_EQ(surface.divide(a, beside), kNoVertex) << "there is no room between neighbours on the lattice";
+}
+
 TEST(SandSurface, ListsEveryVertexAndTriangleThatChanged) {
   SandSurface surface = scatteredSand(100, 16, 0.1, ripples);
   RandomSequence random(17);
