@@ -55,6 +55,11 @@ class Stamper {
   /// the tool reaches beyond the box, or its walls are thinner than 4 lattice steps.
   Result<StampReport> stamp(SandSurface& surface, const ToolShape& tool, const StampPlace& place);
 
+  /// The constraints of the next stamp will have this id or higher ones.
+  std::uint32_t nextId() const noexcept { return nextId_; }
+  /// The vertices on the last stamp's outer outlines, and those left within.
+  std::span<const VertexId> rim() const noexcept { return allRims_.ids(); }
+  std::span<const VertexId> inside() const noexcept { return allInside_.ids(); }
   std::size_t bytes() const noexcept;
 
  private:

@@ -1,0 +1,70 @@
+#include "generators/sand/Sandbox.h"
+
+#include <utility>
+
+namespace teren {
+
+Sandbox::Sandbox(SandSurface surface, const SandSettings& settings)
+    : surface_(std::move(surface)),
+      slides_(reposeOf(settings.dryAngle, settings.moisture), settings.longestEdge),
+      cleanUp_(settings.flatness),
+      stamper_(settings.stamp) {
+  surface_.clearChanges();
+}
+
+void Sandbox::setRepose(double dryAngle, double moisture) {
+  slides_.setRepose(reposeOf(dryAngle, moisture));
+  slides_.addAll(surface_);
+}
+
+/// Passes on what a phase has changed: to the slides, to the clean-up, to whoever draws.
+void Sandbox::collectChanges(Phase phase) {
+  for (const TriangleId t : surface_.changedTriangles().ids()) {
+    changedTriangles_.add(t);
+    if (phase == Phase::stamping) slides_.add(t);
+  }
+  for (const VertexId v : surface_.changedVertices().ids()) {
+    changedVertices_.add(v);
+    if (phase != Phase::cleaning) cleanUp_.addMoved(v);
+  }
+  surface_.clearChanges();
+}
+
+Result<StampReport> Sandbox::stamp(const ToolShape& tool, const StampPlace& place) {
+  const std::uint32_t id = stamper_.nextId();
+  for (const VertexId v : stamper_.rim()) cleanUp_.add(v);
+  for (const VertexId v : stamper_.inside()) cleanUp_.add(v);
+  Result<StampReport> report = stamper_.stamp(surface_, tool, place);
+  if (report) keptId_ = id;
+  collectChanges(Phase::stamping);
+  return report;
+}
+
+bool Sandbox::slide(std::uint64_t steps) {
+  const bool atRest = slides_.advance(surface_, steps);
+  collectChanges(Phase::sliding);
+  return atRest;
+}
+
+void Sandbox::clean() {
+  cleanUp_.run(surface_, slides_, keptId_);
+  collectChanges(Phase::cleaning);
+}
+
+bool Sandbox::iterate(std::uint64_t steps) {
+  slide(steps);
+  clean();
+  return slides_.atRest();
+}
+
+void Sandbox::forgetChanges() noexcept {
+  changedVertices_.clear();
+  changedTriangles_.clear();
+}
+
+std::size_t Sandbox::bytes() const noexcept {
+  return surface_.bytes() + slides_.bytes() + cleanUp_.bytes() + stamper_.bytes() + changedVertices_.bytes() +
+         changedTriangles_.bytes();
+}
+
+}  // namespace teren

@@ -1,0 +1,71 @@
+// Sand to play with: stamps, slides and clean-up taken together, one iteration at a time.
+#pragma once
+
+#include <cstdint>
+
+#include "teren/Result.h"
+
+#include "generators/sand/CleanUp.h"
+#include "generators/sand/SandSurface.h"
+#include "generators/sand/Slides.h"
+#include "generators/sand/Stamper.h"
+
+namespace teren {
+
+struct SandSettings {
+  double dryAngle = kDryRepose;  // [degree] Repose.h
+  double moisture = 0.0;         // 0 ... 1
+  double longestEdge =
+      0.02;  // [m] Slides; shorter looks better where sand slides on coarse ground, and costs vertices
+  double flatness = 1e-4;  // [m] the clean-up's tolerance; higher keeps fewer vertices
+  StampSettings stamp;
+};
+
+/// One iteration: any number of stamps, then slides, then clean-up; then whoever draws asks for changes().
+/// What clean-up unsettles slides in the next iteration. What is computed depends on the calls and their
+/// numbers of steps alone, so it is the same on every machine. Costs are bounded by what is touched, not by
+/// the mesh. One thread; whoever draws in another one copies what changed.
+class Sandbox {
+ public:
+  Sandbox(SandSurface surface, const SandSettings& settings);
+
+  const SandSurface& surface() const noexcept { return surface_; }
+  const Slides& slides() const noexcept { return slides_; }
+  const CleanUp& cleanUp() const noexcept { return cleanUp_; }
+  /// Other sand from now on; all faces are looked at again, which is O(n).
+  void setRepose(double dryAngle, double moisture);
+  /// Looks at all faces again, as a new sandbox whose ground may be steep needs. O(n).
+  void loosenAll() { slides_.addAll(surface_); }
+
+  /// Presses a tool in; Stamper::stamp.
+  Result<StampReport> stamp(const ToolShape& tool, const StampPlace& place);
+  /// Lets steep faces slide, at most so many steps. True: all is at rest.
+  bool slide(std::uint64_t steps);
+  /// Removes flat vertices among those that have moved since the last clean-up.
+  void clean();
+  /// slide(steps) and clean(). True: all is at rest.
+  bool iterate(std::uint64_t steps);
+
+  /// Slots of vertices and triangles that changed, came or went since the last forgetChanges(): what a copy
+  /// of the surface, kept elsewhere, has to look at.
+  const ChangeList& changedVertices() const noexcept { return changedVertices_; }
+  const ChangeList& changedTriangles() const noexcept { return changedTriangles_; }
+  void forgetChanges() noexcept;
+
+  /// Every byte held, unused capacity included.
+  std::size_t bytes() const noexcept;
+
+ private:
+  enum class Phase { stamping, sliding, cleaning };
+  void collectChanges(Phase phase);
+
+  SandSurface surface_;
+  Slides slides_;
+  CleanUp cleanUp_;
+  Stamper stamper_;
+  std::uint32_t keptId_ = 0;  // constraints of the last stamp stay until the next
+  ChangeList changedVertices_;
+  ChangeList changedTriangles_;
+};
+
+}  // namespace teren

@@ -1,0 +1,107 @@
+#include "generators/sand/Sandbox.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "generators/numbers/Tangent.h"
+#include "tests/generators/sand/Heaps.h"
+
+namespace teren {
+namespace {
+
+constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
+const double kSteepestAllowed = tangentOfDegrees(kDryRepose + kReposeTolerance);
+
+double level(double, double) {
+  return 0.0;
+}
+
+bool restless(Sandbox& sandbox) {
+  for (int n = 0; n < 1'000; ++n) {
+    if (sandbox.iterate(kNoLimit)) return false;
+  }
+  return true;
+}
+
+TEST(Sandbox, LeavesAGrooveAtTheAngleOfReposeWithNothingLost) {
+  Sandbox sandbox(scatteredSand(2'000, 51, 5.0, level), {});
+  const SixfoldVolume all = sandbox.surface().volume();
+  const ToolShape tool = *ToolShape::disc(0.04, 0.1);
+  for (const StampPlace& place : stampsAlong({0.2, 0.2}, {0.8, 0.7}, 0.02)) {
+    ASSERT_TRUE(sandbox.stamp(tool, place));
+    sandbox.iterate(2'000);
+  }
+  ASSERT_FALSE(restless(sandbox));
+  EXPECT_LE(steepestLooseSlope(sandbox.surface()), kSteepestAllowed);
+  EXPECT_TRUE(sandbox.surface().volume() + sandbox.surface().owed() == all);
+  EXPECT_GT(sandbox.cleanUp().count().removed, 30U);
+  EXPECT_LE(sandbox.cleanUp().count().largestError, SandSettings{}.flatness);
+  const Result<void> sound = sandbox.surface().validate();
+  EXPECT_TRUE(sound) << sound.error().message;
+}
+
+TEST(Sandbox, DriftsByLessThanATrillionthOfWhatMovedInAMillionSteps) {
+  Sandbox sandbox(scatteredSand(1'000, 52, 5.0, level), {});
+  const SixfoldVolume all = sandbox.surface().volume();
+  const ToolShape tool = *ToolShape::disc(0.05, 0.1);
+  RandomSequence random(53);
+  while (sandbox.slides().count().steps < 1'000'000) {
+    const StampPlace place{0.1 + 0.8 * uniform(random.next()), 0.1 + 0.8 * uniform(random.next()), 0.0};
+    ASSERT_TRUE(sandbox.stamp(tool, place));
+    sandbox.iterate(20'000);
+  }
+  const SixfoldVolume drift = sandbox.surface().volume() - all;
+  EXPECT_TRUE(drift == -sandbox.surface().owed());
+  const double part = asDouble(drift) / asDouble(sandbox.surface().volumeMoved());
+  EXPECT_LT(std::fabs(part), 1e-12);
+  RecordProperty("drift", std::to_string(part * 1e15) + "e-15");
+}
+
+TEST(Sandbox, TellsWhoeverDrawsWhatToLookAt) {
+  Sandbox sandbox(scatteredSand(500, 54, 5.0, level), {});
+  std::vector<std::int64_t> heights;
+  std::vector<std::array<VertexId, 3>> triangles;
+  const auto look = [&](VertexId v) {
+    if (v >= heights.size()) heights.resize(v + 1, 0);
+    heights[v] = sandbox.surface().mesh().isVertex(v) ? sandbox.surface().height(v) : 0;
+  };
+  const auto lookAt = [&](TriangleId t) {
+    if (t >= triangles.size()) triangles.resize(t + 1);
+    triangles[t] = {};
+    if (sandbox.surface().mesh().isTriangle(t)) triangles[t] = sandbox.surface().mesh().corners(t);
+  };
+  for (VertexId v = 0; v < sandbox.surface().mesh().vertexSlots(); ++v) look(v);
+  for (TriangleId t = 0; t < sandbox.surface().mesh().triangleSlots(); ++t) lookAt(t);
+  const ToolShape tool = *ToolShape::square(0.06, 0.05);
+  for (const StampPlace& place : stampsAlong({0.2, 0.5}, {0.8, 0.5}, 0.03)) {
+    ASSERT_TRUE(sandbox.stamp(tool, place));
+    sandbox.iterate(1'000);
+    for (const VertexId v : sandbox.changedVertices().ids()) look(v);
+    for (const TriangleId t : sandbox.changedTriangles().ids()) lookAt(t);
+    sandbox.forgetChanges();
+    const std::vector<std::int64_t> followed = heights;
+    const std::vector<std::array<VertexId, 3>> followedTriangles = triangles;
+    for (VertexId v = 0; v < sandbox.surface().mesh().vertexSlots(); ++v) look(v);
+    for (TriangleId t = 0; t < sandbox.surface().mesh().triangleSlots(); ++t) lookAt(t);
+    ASSERT_EQ(followed, heights);
+    ASSERT_EQ(followedTriangles, triangles);
+  }
+}
+
+TEST(Sandbox, SlidesAgainWhenTheSandDries) {
+  SandSettings moist;
+  moist.moisture = 1.0;
+  Sandbox sandbox(scatteredSand(800, 55, 5.0, cone), moist);
+  sandbox.loosenAll();
+  ASSERT_FALSE(restless(sandbox));
+  EXPECT_GT(steepestLooseSlope(sandbox.surface()), tangentOfDegrees(40.0));
+  sandbox.setRepose(kDryRepose, 0.0);
+  ASSERT_FALSE(restless(sandbox));
+  EXPECT_LE(steepestLooseSlope(sandbox.surface()), kSteepestAllowed);
+}
+
+}  // namespace
+}  // namespace teren
