@@ -30,7 +30,8 @@ struct FilterDescription {
 };
 
 /// Where the generator is continuous (ContinuousGenerator.h) and no filters follow, the layer is its field:
-/// `samples`, `blend` and `preserveVariance` are about base maps and do not concern it.
+/// `samples`, `blend` and `preserveVariance` are about base maps and do not concern it. `pitch` still says up
+/// to which level it is drawn: choose it not far below the field's largest features.
 struct LayerDescription {
   std::string name;       ///< what is hashed; empty: the generator's id, with -2, -3 ... on repetition
   std::string generator;  ///< plugin id

@@ -1,6 +1,7 @@
 #include "world/FieldTask.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "teren/HeightMapOperations.h"
+#include "teren/ProcessorTime.h"
 #include "teren/StepLimit.h"
 
 #include "tests/engine/world/RandomDraws.h"
@@ -146,6 +148,23 @@ TEST(FieldTask, GivesUpAfterTheStepsThatARectangleOfItsSizeMayTake) {
                      HeightView) { return std::make_unique<Does>([&steps] { return ++steps, false; }); },
             65, 3);
   EXPECT_EQ(steps, stepLimit(65, 3));
+}
+
+TEST(FieldTask, NamesAPluginThatOverrunsItsSliceAndKeepsItsHeights) {
+  const auto slow = [](const FieldRequest&, HeightView out) {
+    return std::make_unique<Does>([out] {
+      const auto start = threadProcessorTime();
+      while (threadProcessorTime() - start < std::chrono::milliseconds(30)) {
+      }
+      fillHeights(out, 15.0F);
+      return true;
+    });
+  };
+  const Outcome outcome = outcomeOf(slow, 5, 3, Slice::lasting(std::chrono::microseconds(20)));
+  EXPECT_EQ(outcome.heights(2, 1), 15.0F);
+  EXPECT_FALSE(outcome.failed);
+  ASSERT_EQ(outcome.said.size(), 1U);
+  EXPECT_NE(outcome.said[0].find("processor time"), std::string::npos) << outcome.said[0];
 }
 
 TEST(FieldTask, IsCutIntoAtLeastAStepARowAndAsManyForTheDoor) {
