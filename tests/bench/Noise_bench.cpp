@@ -22,6 +22,7 @@ namespace teren {
 namespace {
 
 constexpr int kSide = 1024;
+constexpr int kSides[] = {65, 129, 257, 1025};
 constexpr double kFrequency = 1.0 / 128.0;  // [1/m], with samples 1 m apart
 
 struct Path {
@@ -68,13 +69,13 @@ void noise(benchmark::State& state, const NoiseSettings& settings, NoisePath pat
 
 #ifdef TEREN_BENCH_LIBNOISE
 /// The same place, spacing, frequency and octaves; three dimensions with z = 0.
-void libnoise(benchmark::State& state) {
+void libnoise(benchmark::State& state, int side) {
   ::noise::module::Perlin perlin;
   perlin.SetOctaveCount(8);
-  HeightMap map(kSide, kSide);
+  HeightMap map(side, side);
   for (auto _ : state) {
-    for (int row = 0; row < kSide; ++row) {
-      for (int column = 0; column < kSide; ++column) {
+    for (int row = 0; row < side; ++row) {
+      for (int column = 0; column < side; ++column) {
         map(column, row) = static_cast<float>(perlin.GetValue(column * kFrequency, row * kFrequency, 0.0));
       }
     }
@@ -97,25 +98,36 @@ bool pathsAgree() {
   return true;
 }
 
-std::string named(const char* variant, const char* path, int side = kSide) {
-  return std::string(variant) + "/" + path + (side == kSide ? "" : "/" + std::to_string(side));
+std::string named(const char* variant, const char* path) {
+  return std::string(variant) + "/" + path;
+}
+std::string named(const char* variant, const char* path, int side) {
+  return named(variant, path) + "/" + std::to_string(side);
 }
 
+/// Names with a side are what tests/bench/table reads.
 void registerAll() {
   const auto add = [](const std::string& name, auto... arguments) {
     benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMicrosecond)->MinTime(0.02);
   };
-  for (const Path& path : kPaths) {
-    if (!Noise::runs(path.path)) continue;
-    for (const Variant& variant : variants()) {
-      add(named(variant.name, path.name), noise, variant.settings, path.path, kSide);
-    }
-    for (const int side : {1, 65, 129, 257, 1025}) {
-      add(named("perlin", path.name, side), noise, variants()[0].settings, path.path, side);
+  for (const Variant& variant : variants()) {
+    for (const Path& path : kPaths) {
+      if (Noise::runs(path.path))
+        add(named(variant.name, path.name), noise, variant.settings, path.path, kSide);
     }
   }
+  for (const Variant& variant : {variants()[0], variants()[1]}) {
+    for (const int side : kSides) {
+      add(named(variant.name, "fast", side), noise, variant.settings, Noise::fastestPath(), side);
+      add(named(variant.name, "plain", side), noise, variant.settings, NoisePath::plain, side);
 #ifdef TEREN_BENCH_LIBNOISE
-  add("libnoise/perlin", libnoise);
+      add(named(variant.name, "rival", side), libnoise, side);
+#endif
+    }
+    add(named(variant.name, "one-sample"), noise, variant.settings, Noise::fastestPath(), 1);
+  }
+#ifdef TEREN_BENCH_LIBNOISE
+  add("libnoise/perlin", libnoise, kSide);
 #endif
 }
 
@@ -134,10 +146,10 @@ int runAll(int argc, char** argv) {
   registerAll();
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
-  for (const Path& path : kPaths) {
-    for (const Variant& variant : variants()) printPerSample(reporter, named(variant.name, path.name), kSide);
-    for (const int side : {1, 65, 129, 257, 1025})
-      printPerSample(reporter, named("perlin", path.name, side), side);
+  for (const Variant& variant : variants()) {
+    for (const Path& path : kPaths) printPerSample(reporter, named(variant.name, path.name), kSide);
+    for (const int side : kSides) printPerSample(reporter, named(variant.name, "fast", side), side);
+    printPerSample(reporter, named(variant.name, "one-sample"), 1);
   }
   printPerSample(reporter, "libnoise/perlin", kSide);
   // Recorded elsewhere (8 octaves, this side): the best library with SIMD known.
