@@ -1,7 +1,7 @@
 // The contract of plugins, put to every plugin the registry finds, Teren's own and, through
 // TEREN_PLUGIN_PATH, others; and what more Teren's own promise.
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -85,11 +85,16 @@ std::string testName(std::string name) {
   return name;
 }
 
+/// TEREN_FULL=1: as thoroughly as `teren check` does.
+Effort effort() {
+  return std::getenv("TEREN_FULL") == nullptr ? Effort::quick() : Effort::full();
+}
+
 class PluginContract : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 TEST_P(PluginContract, Holds) {
   const auto& [id, name] = GetParam();
-  const check::Finding finding = check::findProperty(name)->check(subject(id), Effort::quick());
+  const check::Finding finding = check::findProperty(name)->check(subject(id), effort());
   EXPECT_TRUE(finding.holds) << finding.text;
   RecordProperty("figures", finding.text);
 }

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <filesystem>
 #include <string>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -59,6 +60,9 @@ class Program {
     execv(TEREN_PROGRAM, pointers.data());
     _exit(127);
   }
+
+  /// The one it runs in.
+  const std::filesystem::path& folder() const { return folder_.path(); }
 
   void signal(int number) const { kill(process_, number); }
 
