@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "teren/ProcessorTime.h"
 
@@ -29,6 +31,17 @@ AircraftStart passing(const AircraftStart& first, double pitch) {
   return start;
 }
 
+/// Is where another object is, so that the land around it is made before it comes.
+class Scout final : public Object {
+ public:
+  explicit Scout(const Object& object) : object_(object) {}
+  void update(double /*dt*/, const Ground& /*ground*/) override {}
+  Motion motion() const override { return object_.motion(); }
+
+ private:
+  const Object& object_;
+};
+
 }  // namespace
 
 Flight::Flight(std::unique_ptr<Engine> engine, const AircraftStart& start) : engine_(std::move(engine)) {
@@ -47,9 +60,34 @@ void Flight::settle(const std::function<bool(std::size_t done, std::size_t wante
 }
 
 void Flight::advance(double dt) {
-  engine_->update(std::clamp(dt, 0.0, kLongestStep), budget_.next());
+  const std::chrono::nanoseconds budget = next_ ? budget_.next() / 2 : budget_.next();
+  engine_->update(std::clamp(dt, 0.0, kLongestStep), budget);
+  std::chrono::nanoseconds time = engine_->figures().lastUpdate;
+  if (next_) {
+    workAtNext(budget);
+    time += (next_ ? next_ : engine_)->figures().lastUpdate;
+  }
   updated_ = threadProcessorTime();
-  engineTimes_.add(std::chrono::duration<double, std::micro>(engine_->figures().lastUpdate).count());
+  engineTimes_.add(std::chrono::duration<double, std::micro>(time).count());
+}
+
+void Flight::goOverTo(std::unique_ptr<Engine> next) {
+  assert(next && next->objectCount() == 0 && next->world().pitch() == engine_->world().pitch());
+  next_ = std::move(next);
+  for (const Aircraft* aircraft : aircraft_) next_->add(std::make_unique<Scout>(*aircraft));
+}
+
+// Fast flight leaves always some land to be made; the next may lack as much as the present one.
+void Flight::workAtNext(std::chrono::nanoseconds budget) {
+  next_->setActive(active());
+  next_->update(0.0, budget);
+  if (next_->figures().pending > engine_->figures().pending) return;
+  next_->takeObjects();
+  const std::size_t index = active();
+  for (std::unique_ptr<Object>& object : engine_->takeObjects()) next_->add(std::move(object));
+  next_->setActive(index);
+  engine_ = std::move(next_);
+  ++changes_;
 }
 
 void Flight::frameDone() {

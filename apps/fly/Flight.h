@@ -1,6 +1,7 @@
 // The flight itself, without a window: an engine with aircraft in it, moved on frame by frame.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -29,6 +30,15 @@ class Flight {
   /// Engine::settle, with the aircraft put above the ground as it becomes known.
   void settle(const std::function<bool(std::size_t done, std::size_t wanted)>& progress);
 
+  /// Flies on over the present land until the next engine has made as much of its own around the same
+  /// objects, then goes over to it with all of them: nobody sees land that is not there. Takes the place of a
+  /// next engine given before. It must be without objects, its world of the same pitch.
+  void goOverTo(std::unique_ptr<Engine> next);
+  /// Whether a next land is being made.
+  bool isLeaving() const noexcept { return next_ != nullptr; }
+  /// How often it has gone over to another engine.
+  int changes() const noexcept { return changes_; }
+
   /// Begins a frame: moves all by dt [s], brought between 0 and kLongestStep, and lets the engine work for as
   /// long as the frames before have left it.
   void advance(double dt);
@@ -46,7 +56,10 @@ class Flight {
   const FrameStatistics& engineTimes() const noexcept { return engineTimes_; }
 
  private:
-  std::unique_ptr<Engine> engine_;
+  void workAtNext(std::chrono::nanoseconds budget);
+
+  std::unique_ptr<Engine> engine_, next_;  // next_ has a scout for each object, so it goes first
+  int changes_ = 0;
   std::vector<Aircraft*> aircraft_;
   FrameStatistics engineTimes_;
   FrameBudget budget_{kFramesPerSecond};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include <Inventor/nodes/SoDirectionalLight.h>
 #include <Inventor/nodes/SoEnvironment.h>
@@ -27,12 +28,10 @@ SoSeparator* uncached() {
 
 }  // namespace
 
-FlyScene::FlyScene(const Daylight& light, Engine& engine, double viewDistance)
+FlyScene::FlyScene(const Daylight& light, Engine& engine)
     : root_(uncached()), camera_(new SoPerspectiveCamera), terrain_(new SoTerrain), sky_(light) {
   root_->ref();
-  const auto distance = static_cast<float>(viewDistance);
   camera_->nearDistance = kNearest;
-  camera_->farDistance = std::max(kFarthestAtLeast, kFarthestFactor * distance);
   root_->addChild(camera_);
   root_->addChild(sky_.node());
   auto* environment = new SoEnvironment;
@@ -46,7 +45,7 @@ FlyScene::FlyScene(const Daylight& light, Engine& engine, double viewDistance)
   terrain_->setScene(engine.scene());  // first: fields of a node without an engine of its own are few
   terrain_->waterLevel = light.waterLevel;
   terrain_->hazeColor = light.haze;
-  terrain_->viewDistance = distance;
+  setViewDistance(engine.options().view.reach(engine.world()));
   SoSeparator* land = uncached();
   land->addChild(terrain_);
   root_->addChild(land);
@@ -59,6 +58,18 @@ FlyScene::FlyScene(const Daylight& light, Engine& engine, double viewDistance)
 FlyScene::~FlyScene() {
   models_.clear();
   root_->unref();
+}
+
+void FlyScene::setViewDistance(double viewDistance) {
+  const auto distance = static_cast<float>(viewDistance);
+  camera_->farDistance = std::max(kFarthestAtLeast, kFarthestFactor * distance);
+  terrain_->viewDistance = distance;
+}
+
+// Snapshots of two engines have nothing in common.
+void FlyScene::showOtherLand(const Engine& engine) {
+  terrain_->setScene(std::make_shared<const Scene>());
+  setViewDistance(engine.options().view.reach(engine.world()));
 }
 
 SbVec3f FlyScene::place(const Position& position, double height, double pitch) const {
@@ -75,6 +86,7 @@ void FlyScene::show(Flight& flight, const Viewpoint& view, CameraRig::Person per
   const double pitch = flight.engine().world().pitch();
   const Pose& eye = view.pose;
   if (zero_.follow(eye.position, pitch)) moveZero(pitch);
+  if (std::exchange(changes_, flight.changes()) != flight.changes()) showOtherLand(flight.engine());
   terrain_->setScene(flight.engine().scene());
 
   // The camera of Inventor looks down its -z axis with y up; an object's rest looks north with z up.

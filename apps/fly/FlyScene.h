@@ -21,8 +21,8 @@ namespace teren {
 /// Make it after SoQt::init and SoTerrain::initClass; it must go before Coin does.
 class FlyScene {
  public:
-  /// Shows the engine's objects of this moment. `viewDistance` [m] is where the haze hides the land.
-  FlyScene(const Daylight& light, Engine& engine, double viewDistance);
+  /// Shows the engine's objects of this moment. The haze hides the land where its view ends.
+  FlyScene(const Daylight& light, Engine& engine);
   ~FlyScene();
   FlyScene(const FlyScene&) = delete;
   FlyScene& operator=(const FlyScene&) = delete;
@@ -37,6 +37,8 @@ class FlyScene {
  private:
   SbVec3f place(const Position& position, double height, double pitch) const;
   void moveZero(double pitch);
+  void setViewDistance(double distance);
+  void showOtherLand(const Engine& engine);
 
   SoSeparator* root_;  // referenced
   SoPerspectiveCamera* camera_;
@@ -44,6 +46,7 @@ class FlyScene {
   SkyDome sky_;
   std::vector<std::unique_ptr<ObjectModel>> models_;
   SceneZero zero_;
+  int changes_ = 0;  // of the flight's engine, seen so far
 };
 
 }  // namespace teren

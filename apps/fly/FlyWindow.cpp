@@ -1,6 +1,7 @@
 #include "apps/fly/FlyWindow.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -47,10 +48,11 @@ QString pictureFile() {
 
 }  // namespace
 
-FlyWindow::FlyWindow(Flight& flight, const Daylight& light, QSize size)
+FlyWindow::FlyWindow(Flight& flight, const Daylight& light, QSize size, Remake remake)
     : flight_(flight),
       daylight_(light),
-      scene_(light, flight.engine(), flight.engine().options().view.reach(flight.engine().world())),
+      scene_(light, flight.engine()),
+      remake_(std::move(remake)),
       area_(new RenderArea(this)) {
   setWindowTitle(QStringLiteral("Teren"));
   auto* layout = new QVBoxLayout(this);
@@ -112,6 +114,7 @@ void FlyWindow::tick() {
   updateScene(paused_ ? 0.0 : dt);
   if (last || now - lastFigures_ > kBetweenFigures) {
     showFigures();
+    tellMessages();
     lastFigures_ = now;
   }
   if (last || pictureWanted_) {
@@ -230,7 +233,7 @@ void FlyWindow::act(Action action) {
       break;
     case Action::nextObject:
       flight_.nextObject();
-      display_.say("you fly " + flight_.activeObject().name(), kSentenceTime);
+      say("you fly " + flight_.activeObject().name());
       showHelp();
       break;
     case Action::pause:
@@ -238,6 +241,9 @@ void FlyWindow::act(Action action) {
       break;
     case Action::help:
       display_.toggleHelp();
+      break;
+    case Action::reload:
+      reload();
       break;
     case Action::fullScreen:
       toggleFullScreen();
@@ -258,6 +264,35 @@ void FlyWindow::togglePause() {
   display_.setBanner(paused_ ? "paused" : "");
 }
 
+void FlyWindow::say(const std::string& sentence) {
+  lastSentence_ = sentence;
+  display_.say(sentence, kSentenceTime);
+}
+
+void FlyWindow::complain(const std::string& sentence) {
+  std::fprintf(stderr, "teren-fly: %s\n", sentence.c_str());
+  say(sentence);
+}
+
+void FlyWindow::reload() {
+  Result<NewLand> land = remake_();
+  if (!land) {
+    complain("the land stays as it is: " + land.error().message);
+    return;
+  }
+  std::string changed;
+  for (const std::string& id : land->changed) changed += (changed.empty() ? "" : ", ") + id;
+  say((changed.empty() ? "no plugin has changed" : "changed: " + changed) + "; making the land anew");
+  flight_.goOverTo(std::move(land->engine));
+}
+
+// What is wrong with plugins and objects, and that the land asked for is there.
+void FlyWindow::tellMessages() {
+  if (changes_ != flight_.changes()) say("this is the new land");
+  changes_ = flight_.changes();
+  for (const std::string& message : flight_.engine().takeMessages()) complain(message);
+}
+
 void FlyWindow::toggleFullScreen() {
   if (isFullScreen()) {
     showNormal();
@@ -270,7 +305,7 @@ void FlyWindow::keepPicture(const QImage& picture) {
   pictureWanted_ = false;
   const std::string file = pictureFile().toStdString();
   const Result<void> saved = savePicture(picture, file);
-  display_.say(saved ? "screenshot: " + file : saved.error().message, kSentenceTime);
+  say(saved ? "screenshot: " + file : saved.error().message);
 }
 
 void FlyWindow::closeEvent(QCloseEvent* event) {

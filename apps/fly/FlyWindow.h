@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include <QImage>
 #include <QPoint>
@@ -15,6 +17,7 @@
 #include "apps/fly/FlyScene.h"
 #include "apps/fly/HeadUpDisplay.h"
 #include "apps/fly/KeyMap.h"
+#include "apps/fly/LandSource.h"
 #include "apps/fly/RenderArea.h"
 #include "apps/window/FrameStatistics.h"
 
@@ -26,7 +29,10 @@ class FlyWindow : public QWidget {
  public:
   using Clock = std::chrono::steady_clock;
 
-  FlyWindow(Flight& flight, const Daylight& light, QSize size);
+  /// Makes the land anew for F5.
+  using Remake = std::function<Result<NewLand>()>;
+
+  FlyWindow(Flight& flight, const Daylight& light, QSize size, Remake remake);
   ~FlyWindow() override;
 
   /// Shows the window while the flight settles: the land as it grows, and how much of it is there. Returns
@@ -43,6 +49,8 @@ class FlyWindow : public QWidget {
   /// [ms] between the moments at which successive frames were presented.
   const FrameStatistics& frameTimes() const noexcept { return frameTimes_; }
   std::size_t bytes() const;  ///< the engine's, the graphics buffers included
+  /// The last sentence it has shown the person.
+  const std::string& lastSentence() const noexcept { return lastSentence_; }
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -58,6 +66,10 @@ class FlyWindow : public QWidget {
   bool mouseEvent(const QEvent& event);
   void act(Action action);
   void togglePause();
+  void reload();
+  void tellMessages();
+  void say(const std::string& sentence);
+  void complain(const std::string& sentence);  // on standard error too
   void toggleFullScreen();
   void keepPicture(const QImage& picture);
 
@@ -67,12 +79,15 @@ class FlyWindow : public QWidget {
   HeadUpDisplay display_;
   CameraRig rig_;
   HeldKeys keys_;
+  Remake remake_;
   QTimer timer_;
   RenderArea* area_;  // owned; goes before its widgets
   std::optional<QPoint> dragFrom_;
   bool paused_ = false, leaving_ = false, pictureWanted_ = false;
   std::optional<Clock::duration> duration_;
   Clock::time_point begin_{}, lastTick_{}, lastPresented_{}, lastFigures_{};
+  int changes_ = 0;  // of the flight's engine, told so far
+  std::string lastSentence_;
   FrameStatistics frameTimes_;
   QImage lastPicture_;
 };

@@ -41,12 +41,13 @@ constexpr std::array kRows{
     Row{Qt::Key_Tab, Where::anywhere, Action::nextObject},
     Row{Qt::Key_P, Where::anywhere, Action::pause},
     Row{Qt::Key_F1, Where::anywhere, Action::help},
+    Row{Qt::Key_F5, Where::anywhere, Action::reload},
     Row{Qt::Key_F11, Where::anywhere, Action::fullScreen},
     Row{Qt::Key_F12, Where::anywhere, Action::screenshot},
     Row{Qt::Key_Escape, Where::anywhere, Action::quit},
 };
 
-constexpr std::array<KeyHelp, 11> kHelp{{
+constexpr std::array<KeyHelp, 12> kHelp{{
     {"mouse drag", "look around"},
     {"wheel", "zoom"},
     {"Num 8 2 4 6  or  I K J L", "camera forward, back, left, right"},
@@ -56,6 +57,7 @@ constexpr std::array<KeyHelp, 11> kHelp{{
     {"Tab", "next aircraft"},
     {"P", "pause"},
     {"F1", "this help"},
+    {"F5", "make the land anew, with changed plugins"},
     {"F11, F12", "full screen, screenshot"},
     {"Escape", "quit"},
 }};

@@ -28,6 +28,7 @@ enum class Action {
   nextObject,
   pause,
   help,
+  reload,
   fullScreen,
   screenshot,
   quit,

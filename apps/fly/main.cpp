@@ -1,21 +1,17 @@
 // teren-fly: fly around the landscape.
 #include <chrono>
 #include <cstdio>
-#include <memory>
 #include <optional>
-#include <string>
 #include <unistd.h>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 #include <QApplication>
 
-#include "teren/Engine.h"
-
 #include "apps/fly/Daylight.h"
 #include "apps/fly/Flight.h"
-#include "apps/fly/FlyOptions.h"
 #include "apps/fly/FlyWindow.h"
+#include "apps/fly/LandSource.h"
 #include "apps/options/CommandLine.h"
 #include "apps/options/WorldOptions.h"
 #include "apps/window/FrameReport.h"
@@ -48,15 +44,17 @@ Result<void> saveResults(const FlyOptions& options, const FlyWindow& window, con
       options.window.stats);
 }
 
-Result<void> fly(const FlyOptions& options, std::unique_ptr<Engine> engine) {
+Result<void> fly(NewLand land, const FlyWindow::Remake& remake) {
+  const FlyOptions& options = land.options;
   const Daylight daylight;
   AircraftStart start;
   start.speed = options.speed;
   start.waterLevel = static_cast<double>(daylight.waterLevel);
-  const Result<Position> position = Position::fromMetres(kStartEast, kStartNorth, engine->world().pitch());
+  const Result<Position> position =
+      Position::fromMetres(kStartEast, kStartNorth, land.engine->world().pitch());
   if (position) start.position = *position;
-  Flight flight(std::move(engine), start);
-  FlyWindow window(flight, daylight, options.window.size);
+  Flight flight(std::move(land.engine), start);
+  FlyWindow window(flight, daylight, options.window.size, remake);
   if (!settle(window)) return {};
   using Duration = FlyWindow::Clock::duration;
   std::optional<Duration> duration;
@@ -65,9 +63,6 @@ Result<void> fly(const FlyOptions& options, std::unique_ptr<Engine> engine) {
   }
   window.fly(duration);
   QApplication::exec();
-  for (const std::string& message : flight.engine().takeMessages()) {
-    std::fprintf(stderr, "teren-fly: %s\n", message.c_str());
-  }
   return saveResults(options, window, flight);
 }
 
@@ -76,14 +71,11 @@ int run(int argc, char** argv) {
   const WorldOptions worldOptions(application);
   const FlyCommandLine commandLine(application);
   if (const std::optional<ExitCode> end = parseCommandLine(application, argc, argv)) return *end;
-  const Result<std::shared_ptr<const World>> world = worldOptions.create(*PluginRegistry::standard());
-  if (!world) return fail(application, kWrongInput, world.error().message);
-  const Result<FlyOptions> options = commandLine.resolve(**world);
-  if (!options) return fail(application, kWrongInput, options.error().message);
-  Result<std::unique_ptr<Engine>> engine = Engine::create(*world, options->engine);
-  if (!engine) return fail(application, kWrongInput, engine.error().message);
-  const Result<void> flown =
-      runWithWindows("teren-fly", argv, [&] { return fly(*options, std::move(engine).value()); });
+  LandSource source(worldOptions, commandLine);
+  Result<NewLand> land = source.make();
+  if (!land) return fail(application, kWrongInput, land.error().message);
+  const Result<void> flown = runWithWindows(
+      "teren-fly", argv, [&] { return fly(std::move(*land), [&source] { return source.make(); }); });
   return flown ? kSuccess : fail(application, kWorkFailed, flown.error().message);
 }
 

@@ -126,6 +126,9 @@ void Engine::setRendererBytes(std::size_t bytes) noexcept {
 Object& Engine::add(std::unique_ptr<Object> object) {
   return state_->objects.add(std::move(object));
 }
+std::vector<std::unique_ptr<Object>> Engine::takeObjects() {
+  return state_->objects.release();
+}
 std::size_t Engine::objectCount() const noexcept {
   return state_->objects.size();
 }

@@ -69,6 +69,15 @@ Object& ObjectSet::add(std::unique_ptr<Object> object) {
   return *members_.back().object;
 }
 
+std::vector<std::unique_ptr<Object>> ObjectSet::release() {
+  std::vector<std::unique_ptr<Object>> objects;
+  for (Member& member : members_) objects.push_back(std::move(member.object));
+  members_.clear();
+  motions_.clear();
+  active_ = 0;
+  return objects;
+}
+
 Object& ObjectSet::at(std::size_t index) const {
   assert(index < members_.size());
   return *members_[index].object;

@@ -24,6 +24,8 @@ class ObjectSet {
 
   /// The first becomes active.
   Object& add(std::unique_ptr<Object> object);
+  /// All of them, in the order they were added; the set is then empty.
+  std::vector<std::unique_ptr<Object>> release();
   std::size_t size() const noexcept { return members_.size(); }
   Object& at(std::size_t index) const;
   std::size_t active() const noexcept { return active_; }

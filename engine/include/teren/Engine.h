@@ -65,8 +65,11 @@ class Engine {
   const World& world() const noexcept;
   const EngineOptions& options() const noexcept;
 
-  /// Adds an object; the first becomes active. The reference lives as long as the engine.
+  /// Adds an object; the first becomes active. The reference lives as long as the engine, or takeObjects().
   Object& add(std::unique_ptr<Object> object);
+  /// Gives all objects back, in the order they were added, for another engine; then there are none. They keep
+  /// the keys they hold, and references to them stay good as long as their new owner has them.
+  std::vector<std::unique_ptr<Object>> takeObjects();
   std::size_t objectCount() const noexcept;
   Object& object(std::size_t index) noexcept;
   std::size_t active() const noexcept;

@@ -59,6 +59,59 @@ TEST(Flight, NeverLetsAnAircraftBelowTheKnownGround) {
   EXPECT_GT(looks, 600);  // of 1200
 }
 
+std::unique_ptr<Engine> engineOfSeed(std::uint64_t seed) {
+  WorldDescription description = WorldDescription::standard();
+  description.seed = seed;
+  const auto world = World::create(description, *PluginRegistry::standard()).value();
+  return Engine::create(world, {.view = {.level = 2, .radius = 2}}).value();
+}
+
+TEST(Flight, GoesOverToAnotherLandWhereItIsOnceThatIsThere) {
+  const std::unique_ptr<Flight> flight = flightAt({100, -40, 0.5, 0.5}, 60.0);
+  ASSERT_TRUE(flight);
+  flight->settle(kToTheEnd);
+  flight->nextObject();
+  std::unique_ptr<Engine> next = engineOfSeed(77);
+  const World* const land = &next->world();
+  flight->goOverTo(std::move(next));
+  Motion before;
+  int frames = 0;
+  while (flight->isLeaving() && frames < 100'000) {
+    ASSERT_NE(&flight->engine().world(), land);
+    before = flight->aircraft()[0]->motion();
+    flight->advance(0.001);
+    ++frames;
+  }
+  EXPECT_GT(frames, 1) << "land takes time to be made";
+  EXPECT_EQ(flight->changes(), 1);
+  EXPECT_EQ(&flight->engine().world(), land);
+  EXPECT_EQ(flight->engine().objectCount(), 2U);
+  EXPECT_EQ(flight->active(), 1U);
+  const Offset way = offset(before.position, flight->aircraft()[0]->motion().position, 64.0);
+  EXPECT_LT(std::hypot(way.east, way.north), 0.1);
+  EXPECT_TRUE(flight->aircraft()[1]->followsScript());
+  EXPECT_GE(flight->engine().figures().nodes, 25U);
+  for (const Aircraft* aircraft : flight->aircraft()) {
+    EXPECT_TRUE(flight->engine().finestHeight(aircraft->motion().position)) << aircraft->name();
+  }
+  flight->advance(0.1);
+  EXPECT_TRUE(flight->aircraft()[0]->heightAboveGround());
+}
+
+TEST(Flight, GoesOverToTheLastLandItWasGiven) {
+  const std::unique_ptr<Flight> flight = flightAt({}, 60.0);
+  ASSERT_TRUE(flight);
+  flight->settle(kToTheEnd);
+  flight->goOverTo(engineOfSeed(77));
+  flight->advance(0.001);
+  std::unique_ptr<Engine> last = engineOfSeed(78);
+  const World* const land = &last->world();
+  flight->goOverTo(std::move(last));
+  for (int frame = 0; flight->isLeaving() && frame < 100'000; ++frame) flight->advance(0.001);
+  EXPECT_EQ(&flight->engine().world(), land);
+  EXPECT_EQ(flight->changes(), 1);
+}
+
 TEST(Flight, KeysReachTheActiveAircraftOnly) {
   const std::unique_ptr<Flight> flight = flightAt({}, 60.0);
   ASSERT_TRUE(flight);

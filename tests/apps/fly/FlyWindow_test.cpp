@@ -25,7 +25,8 @@ class FlyWindowKeys : public testing::Test {
     auto engine = Engine::create(*world, {.view = {3, 1}});
     ASSERT_TRUE(engine.ok());
     flight_ = std::make_unique<Flight>(std::move(*engine), AircraftStart{.speed = 60.0});
-    window_ = std::make_unique<FlyWindow>(*flight_, Daylight{}, QSize(160, 120));
+    window_ = std::make_unique<FlyWindow>(*flight_, Daylight{}, QSize(160, 120),
+                                          [] { return Error{"this test flies over one land"}; });
     ASSERT_TRUE(window_->settle());
     window_->fly(std::nullopt);
   }

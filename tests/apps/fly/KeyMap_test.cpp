@@ -51,6 +51,7 @@ TEST(KeyMap, HasAKeyForEveryOtherThing) {
   EXPECT_EQ(KeyMap::action(Qt::Key_Tab, false), Action::nextObject);
   EXPECT_EQ(KeyMap::action(Qt::Key_P, false), Action::pause);
   EXPECT_EQ(KeyMap::action(Qt::Key_F1, false), Action::help);
+  EXPECT_EQ(KeyMap::action(Qt::Key_F5, false), Action::reload);
   EXPECT_EQ(KeyMap::action(Qt::Key_F11, false), Action::fullScreen);
   EXPECT_EQ(KeyMap::action(Qt::Key_F12, false), Action::screenshot);
   EXPECT_EQ(KeyMap::action(Qt::Key_Escape, false), Action::quit);
@@ -63,7 +64,7 @@ TEST(KeyMap, ExplainsInItsHelpEveryKeyThatDoesSomething) {
     keys.append(line.keys).append(", ");
   }
   for (const char* key : {"mouse", "wheel", "Num 8 2 4 6", "I K J L", "PageUp", "PageDown", "Num 5", "Home",
-                          "C,", "Tab", "P,", "F1,", "F11", "F12", "Escape"}) {
+                          "C,", "Tab", "P,", "F1,", "F5,", "F11", "F12", "Escape"}) {
     EXPECT_NE(keys.find(key), std::string::npos) << key;
   }
 }

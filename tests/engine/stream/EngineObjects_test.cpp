@@ -137,6 +137,26 @@ TEST_P(EngineObjects, MotionThatCannotBeIsNamedOnceAndBreaksNothing) {
   EXPECT_TRUE(engine_->takeMessages().empty());
 }
 
+TEST_P(EngineObjects, GivesItsObjectsBackInTheirOrderForAnotherEngine) {
+  const Rocket& first = add({{3, 3, 0.5, 0.5}, 1e4});
+  const Rocket& second = add({{10, 10, 0.5, 0.5}, 1e4, 30.0});
+  engine_->setActive(1);
+  engine_->settle();
+  std::vector<std::unique_ptr<Object>> objects = engine_->takeObjects();
+  ASSERT_EQ(objects.size(), 2U);
+  EXPECT_EQ(objects[0].get(), &first);
+  EXPECT_EQ(objects[1].get(), &second);
+  EXPECT_EQ(engine_->objectCount(), 0U);
+  EXPECT_FALSE(engine_->handle({"Up", 1.0}));
+  engine_->update(1.0 / 60.0, milliseconds(1));  // goes on without any
+  auto other = Engine::create(world_, {.view = {1, 3}, .workers = GetParam()});
+  for (std::unique_ptr<Object>& object : objects) (*other)->add(std::move(object));
+  (*other)->settle();
+  engine_.reset();
+  (*other)->update(1.0 / 60.0, milliseconds(1));
+  EXPECT_TRUE(second.hadGround);
+}
+
 TEST_P(EngineObjects, AFallingObjectStopsOnTheGroundTheEngineMade) {
   Rocket& rocket = add({{0, 0, 0.3, 0.6}, 1e4});
   EXPECT_TRUE(engine_->handle({"A", 1.0}));
