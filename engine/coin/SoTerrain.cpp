@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -27,6 +28,7 @@
 #include <Inventor/lists/SbStringList.h>
 #include <Inventor/sensors/SoTimerSensor.h>
 
+#include "teren/Parameter.h"
 #include "teren/World.h"
 
 #include "coin/FieldEngine.h"
@@ -51,6 +53,21 @@ SbDPMatrix precise(const SbMatrix& matrix) {
 
 bool isFinite(const SbVec3d& vector) {
   return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
+}
+
+bool isFinite(const SbVec3f& vector) {
+  return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
+}
+
+constexpr double kFarthest = 1e30;   // [m] of an origin: what a float can still tell from infinity
+constexpr double kMostBudget = 1.0;  // [s]
+
+/// "NAME is VALUE VALUE VALUE, expected EXPECTED".
+template <class Vector>
+std::string refusal(const char* name, const Vector& values, const char* expected) {
+  std::string sentence = std::string(name) + " is";
+  for (int axis = 0; axis < 3; ++axis) sentence += " " + teren::numberText(static_cast<double>(values[axis]));
+  return sentence + ", expected " + expected;
 }
 
 }  // namespace
@@ -78,6 +95,9 @@ class SoTerrain::Private {
   bool isWet() const;
   teren::Picture look(SoState* state) const;
   void takeOrigin();
+  void takeBudget();
+  void takeHaze();
+  void takeDistance();
   void report(SbString& slot, const std::string& sentence) const;
 
   SoTerrain& node;
@@ -92,9 +112,12 @@ class SoTerrain::Private {
   bool eyeMoved = true;             // since the last update
   SbVec3f eye{0.0F, 0.0F, 0.0F};    // of the last traversal, in scene coordinates
   SbVec3d eyePlace{0.0, 0.0, 0.0};  // the same in the world
-  SbVec3d origin{0.0, 0.0, 0.0};    // the last good one
-  std::string worldFile;            // where the file named by `world` is
-  SbString fieldError, originError;
+  SbVec3d origin{0.0, 0.0, 0.0};    // the last good one, as the next two
+  double budget = 0.004;            // [s]
+  SbColor haze{0.76F, 0.84F, 0.92F};
+  float distance = 1500.0F;  // [m] the last good one
+  std::string worldFile;     // where the file named by `world` is
+  SbString fieldError, originError, budgetError, hazeError;
   std::size_t drawnTriangles = 0;
 };
 
@@ -120,6 +143,7 @@ void SoTerrain::Private::makeEngineIfFieldsChanged() {
   const teren::Result<void> made = source.make(readFields());
   report(fieldError, made ? std::string() : made.error().message);
   if (!made) return;
+  distance = node.viewDistance.getValue();
   showsThisEngine = false;
   eyeMoved = true;
   armTimer();
@@ -151,7 +175,6 @@ void SoTerrain::Private::tick(void* self, SoSensor* /*sensor*/) {
 void SoTerrain::Private::work(double dt) {
   bool pending = false;
   if (source.engine() != nullptr) {
-    const double budget = std::clamp(node.frameBudget.getValue().getValue(), 0.0, 1.0);
     eyeMoved = false;
     pending = source.update(dt, std::chrono::nanoseconds(static_cast<std::int64_t>(budget * 1e9)));
     showEngine();
@@ -204,22 +227,49 @@ teren::Picture SoTerrain::Private::look(SoState* state) const {
   picture.toClip = precise(SoProjectionMatrixElement::get(state));
   picture.toEye = precise(SoModelMatrixElement::get(state));
   picture.toEye.multRight(precise(SoViewingMatrixElement::get(state)));
-  const float distance = node.viewDistance.getValue();
-  picture.viewDistance = std::isfinite(distance) && distance > 1.0F ? distance : 1.0F;
+  picture.viewDistance = std::max(distance, 1.0F);
   picture.waterLevel = isWet() ? node.waterLevel.getValue() : kDry;
-  picture.haze = node.hazeColor.getValue();
+  picture.haze = haze;
   return picture;
 }
 
 void SoTerrain::Private::takeOrigin() {
   const SbVec3d wanted = node.origin.getValue();
-  if (isFinite(wanted)) {
+  const auto isNear = [](double metres) { return std::fabs(metres) <= kFarthest; };  // false for NaN
+  if (isNear(wanted[0]) && isNear(wanted[1]) && isNear(wanted[2])) {
     report(originError, "");
     origin = wanted;
     if (!fed) followEye(eye);
   } else {
-    report(originError, "origin is not finite, expected three finite numbers");
+    report(originError, refusal("origin", wanted, "three numbers from -1e30 to 1e30"));
   }
+}
+
+void SoTerrain::Private::takeBudget() {
+  const double wanted = node.frameBudget.getValue().getValue();
+  if (0.0 <= wanted && wanted <= kMostBudget) {
+    report(budgetError, "");
+    budget = wanted;
+  } else {
+    report(budgetError, "frameBudget is " + teren::numberText(wanted) + " s, expected 0 to 1 s");
+  }
+}
+
+void SoTerrain::Private::takeHaze() {
+  const SbColor wanted = node.hazeColor.getValue();
+  const auto isShare = [](float light) { return 0.0F <= light && light <= 1.0F; };
+  if (isShare(wanted[0]) && isShare(wanted[1]) && isShare(wanted[2])) {
+    report(hazeError, "");
+    haze = wanted;
+  } else {
+    report(hazeError, refusal("hazeColor", wanted, "three numbers from 0 to 1"));
+  }
+}
+
+/// Of a node that is fed: for others the engine has the say.
+void SoTerrain::Private::takeDistance() {
+  const float wanted = node.viewDistance.getValue();
+  if (fed && std::isfinite(wanted) && wanted > 0.0F) distance = wanted;
 }
 
 void SoTerrain::Private::report(SbString& slot, const std::string& sentence) const {
@@ -272,6 +322,7 @@ void SoTerrain::setScene(std::shared_ptr<const teren::Scene> scene) {
     private_->makeEngineIfFieldsChanged();
     return;
   }
+  private_->takeDistance();
   private_->timer.unschedule();
   private_->source.drop();
   private_->showsThisEngine = false;
@@ -295,7 +346,10 @@ void SoTerrain::settle() {
 
 const SbString& SoTerrain::errorText() {
   private_->makeEngineIfFieldsChanged();
-  return private_->fieldError.getLength() > 0 ? private_->fieldError : private_->originError;
+  for (const SbString* error : {&private_->fieldError, &private_->originError, &private_->budgetError}) {
+    if (error->getLength() > 0) return *error;
+  }
+  return private_->hazeError;
 }
 
 std::size_t SoTerrain::bufferBytes() const {
@@ -315,6 +369,9 @@ void SoTerrain::notify(SoNotList* list) {
     const SoField* field = list->getLastField();
     if (field == &world) private_->worldFile = world.getValue().getString();
     if (field == &origin) private_->takeOrigin();
+    if (field == &frameBudget) private_->takeBudget();
+    if (field == &hazeColor) private_->takeHaze();
+    if (field == &viewDistance) private_->takeDistance();
     if (field == &seed || field == &world || field == &generator || field == &parameters ||
         field == &viewDistance || field == &viewLevel) {
       private_->fieldsChanged = true;
@@ -408,6 +465,7 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
     private_->followEye(teren::eyePosition(state));
   }
   teren::Picture picture = private_->look(state);
+  if (!isFinite(picture.eye)) return;  // of a camera that is nowhere
   std::vector<const teren::Mesh*> meshes =
       teren::visibleMeshes(state, *private_->children.scene(), picture.placement);
   picture.water =

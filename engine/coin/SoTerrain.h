@@ -60,8 +60,9 @@ class SoTerrain : public SoNode {
   static void initClass();
   SoTerrain();
 
-  /// The world. A change makes a new engine, once for all changes made together; what it refuses is reported
-  /// through SoDebugError and errorText(), and the landscape before stays. A relative `world` read from a
+  /// The world. A change makes a new engine, once for all changes made together; what it refuses, like a bad
+  /// value of any other field, is reported through SoDebugError and errorText(), and the landscape, or the
+  /// value, before stays. A relative `world` read from a
   /// file is looked for in the folder of that file too.
   SoSFString seed, world, generator;
   SoMFString parameters;
@@ -78,9 +79,9 @@ class SoTerrain : public SoNode {
   /// Water is never picked.
   SoSFFloat waterLevel;
   /// [m] World position of the scene's zero. Move it along with the camera: scene coordinates are floats, so
-  /// keep them below some ten kilometres. Costs nothing to change; what is not finite is refused.
+  /// keep them below some ten kilometres. Costs nothing to change; -1e30 ... 1e30.
   SoSFVec3d origin;
-  /// What the ground fades into; give the background the same colour.
+  /// What the ground fades into, each part 0 ... 1; give the background the same colour.
   SoSFColor hazeColor;
 
   /// Shows this snapshot; from now on the node has no engine, and the fields that describe the world, the

@@ -277,9 +277,11 @@ Result<WorldDescription> WorldDescription::fromJson(std::string_view text, std::
 }
 
 Result<WorldDescription> WorldDescription::fromFile(const std::filesystem::path& file) {
-  const std::string name = shortened(file.string(), kShownSource);
+  const std::string name = file.empty() ? "\"\"" : shortened(file.string(), kShownSource);
   std::error_code problem;
-  if (!std::filesystem::is_regular_file(file, problem)) {
+  const bool cutShort =
+      file.native().find('\0') != std::string::npos;  // by the system, which would open another
+  if (cutShort || !std::filesystem::is_regular_file(file, problem)) {
     return Error{name + " is not a file that can be read, expected a world description in JSON"};
   }
   // Read with a limit, not by the size it claims: files of the kernel claim none and may have no end.

@@ -96,6 +96,11 @@ void Stage::look(const SbVec3f& from, double heading, double pitch) const {
                         SbRotation(SbVec3f(0.0F, 0.0F, 1.0F), static_cast<float>(-heading * kDegree));
 }
 
+void makeSmall(SoTerrain& terrain) {
+  terrain.viewLevel = 0;
+  terrain.viewDistance = 100.0F;
+}
+
 SoNode* readScene(const std::string& text) {
   SoInput input;
   input.setBuffer(text.data(), text.size());

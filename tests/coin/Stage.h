@@ -39,6 +39,9 @@ class Stage {
   void look(const SbVec3f& from, double heading, double pitch) const;
 };
 
+/// Small and fine, so that it is there at once.
+void makeSmall(SoTerrain& terrain);
+
 /// The graph of an .iv text, with a reference for the caller; throws where it cannot be read.
 SoNode* readScene(const std::string& text);
 /// What SoWriteAction makes of a graph.

@@ -35,6 +35,15 @@ void showSmallLand(TerrainWidget& land, std::uint64_t seed) {
   ASSERT_TRUE(land.setWorld(description).ok());
 }
 
+std::unique_ptr<TerrainWidget> landAtRest() {
+  auto land = std::make_unique<TerrainWidget>();
+  land->resize(kWidth, kHeight);
+  land->show();
+  showSmallLand(*land);
+  EXPECT_TRUE(comesToRest(*land));
+  return land;
+}
+
 bool isWorking(const TerrainWidget& land) {
   return land.findChild<QTimer*>(QString(), Qt::FindDirectChildrenOnly)->isActive();
 }

@@ -2,6 +2,9 @@
 // see there.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+
 #include <QImage>
 #include <QPoint>
 #include <QWidget>
@@ -13,6 +16,10 @@ namespace teren {
 /// A seed of the standard world without its water, seen from above the ground at (0, 0), small and fine so
 /// that it is there soon.
 void showSmallLand(TerrainWidget& land, std::uint64_t seed = 42);
+
+/// A window with that land in it, at rest, of kWidth x kHeight pixels.
+std::unique_ptr<TerrainWidget> landAtRest();
+inline constexpr int kWidth = 240, kHeight = 160;
 
 /// Whether the widget's timer runs.
 bool isWorking(const TerrainWidget& land);

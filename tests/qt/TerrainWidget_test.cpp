@@ -25,18 +25,6 @@
 namespace teren {
 namespace {
 
-constexpr int kWidth = 240, kHeight = 160;
-
-/// A window with land in it, at rest.
-std::unique_ptr<TerrainWidget> landAtRest() {
-  auto land = std::make_unique<TerrainWidget>();
-  land->resize(kWidth, kHeight);
-  land->show();
-  showSmallLand(*land);
-  EXPECT_TRUE(comesToRest(*land));
-  return land;
-}
-
 /// What the ground is according to the world, and how far the finest triangles may be from it.
 void expectGround(const TerrainWidget& land, const Position& position, double height) {
   const SurfacePoint point = land.world()->query(position);
