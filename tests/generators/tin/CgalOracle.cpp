@@ -2,13 +2,21 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <algorithm>
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace teren::test {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Oracle = CGAL::Constrained_Delaunay_triangulation_2<Kernel>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexId, Kernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
+using Oracle =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel,
+                                               CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
 std::string edgeName(VertexId a, VertexId b) {
   return std::to_string(a) + " - " + std::to_string(b);
@@ -34,6 +42,7 @@ std::string differenceFromCgal(const Triangulation& mesh) {
   std::vector<Oracle::Vertex_handle> handles(mesh.vertexSlots());
   const auto insert = [&](VertexId v, Oracle::Face_handle hint) {
     handles[v] = oracle.insert({mesh.point(v).x, mesh.point(v).y}, hint);
+    handles[v]->info() = v;
     return handles[v]->face();
   };
   Oracle::Face_handle hint;
@@ -45,15 +54,23 @@ std::string differenceFromCgal(const Triangulation& mesh) {
       [&](VertexId a, VertexId b, std::uint32_t) { oracle.insert_constraint(handles[a], handles[b]); });
   if (oracle.number_of_vertices() != mesh.vertexCount()) return "another number of vertices";
   if (oracle.number_of_faces() != mesh.triangleCount()) return "another number of triangles";
+  std::unordered_map<std::uint64_t, bool> constrained;  // by edge
+  const auto key = [](VertexId a, VertexId b) {
+    return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
+  };
+  for (const Oracle::Edge& edge : oracle.finite_edges()) {
+    const auto& [face, side] = edge;
+    constrained[key(face->vertex(oracle.cw(side))->info(), face->vertex(oracle.ccw(side))->info())] =
+        face->is_constrained(side);
+  }
   for (TriangleId t = 0; t < mesh.triangleSlots(); ++t) {
     if (!mesh.isTriangle(t)) continue;
     for (int i = 0; i < 3; ++i) {
       const VertexId a = mesh.corners(t)[following(i)], b = mesh.corners(t)[preceding(i)];
-      Oracle::Face_handle face;
-      int side = 0;
-      if (!oracle.is_edge(handles[a], handles[b], face, side)) {
+      const auto found = constrained.find(key(a, b));
+      if (found == constrained.end()) {
         if (mesh.constraint(a, b) || !isTie(mesh, t, i)) return "no edge " + edgeName(a, b);
-      } else if (face->is_constrained(side) != mesh.constraint(a, b).has_value()) {
+      } else if (found->second != mesh.constraint(a, b).has_value()) {
         return "another constraint " + edgeName(a, b);
       }
     }
