@@ -56,15 +56,22 @@ VertexId Triangulation::newVertex(LatticePoint p, double height) {
   return v;
 }
 
-/// The hint, or the jump grid's vertex, whichever is nearer to p.
+/// The hint if p lies in it; else the hint, or the jump grid's vertex, whichever is nearer to p.
 TriangleId Triangulation::startFor(LatticePoint p, TriangleId hint) const noexcept {
+  const bool hinted = isTriangle(hint);
+  LatticePoint at;
+  if (hinted) {
+    const std::array<VertexId, 3>& corner = corners(hint);
+    at = point(corner[0]);
+    const LatticePoint b = point(corner[1]), c = point(corner[2]);
+    if (orientation(at, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, at, p) >= 0) return hint;
+  }
   const VertexId near = grid_.near(p, [this](VertexId v) { return isVertex(v); });
-  if (!isTriangle(hint)) return triangleAt(near == kNoVertex ? 0 : near);
+  if (!hinted) return triangleAt(near == kNoVertex ? 0 : near);
   if (near == kNoVertex) return hint;
-  const LatticePoint a = point(corners(hint)[0]);
-  const LatticePoint b = point(near);
-  const bool nearer = std::abs(a.x - p.x) + std::abs(a.y - p.y) <= std::abs(b.x - p.x) + std::abs(b.y - p.y);
-  return nearer ? hint : triangleAt(near);
+  const LatticePoint other = point(near);
+  const auto distance = [p](LatticePoint q) { return std::abs(q.x - p.x) + std::abs(q.y - p.y); };
+  return distance(at) <= distance(other) ? hint : triangleAt(near);
 }
 
 /// The remembering visibility walk (Devillers, Pion, Teillaud 2002): from triangle to triangle across a side

@@ -133,6 +133,8 @@ class Triangulation {
   /// The surface's height [m] at a lattice point of the box: exactly the vertex's at a vertex; on an edge a
   /// function of its two ends alone. Elsewhere rounded, off by at most 8 ulp of the largest of three heights.
   double heightAt(LatticePoint p, TriangleId hint = kNoTriangle) const noexcept;
+  /// The same for a point that has been located.
+  double heightAt(LatticePoint p, const Location& place) const noexcept;
 
   /// Adds a vertex. Where there is one already, nothing changes. The height must be finite.
   Insertion insert(LatticePoint p, double height, TriangleId hint = kNoTriangle);
@@ -216,7 +218,6 @@ class Triangulation {
   // Triangulation.cpp
   TriangleId startFor(LatticePoint p, TriangleId hint) const noexcept;
   Location walk(LatticePoint p, TriangleId start) const noexcept;
-  double heightAt(LatticePoint p, const Location& place) const noexcept;
   Link findEdge(VertexId a, VertexId b) const noexcept;
   void rebuildGrid();
 
