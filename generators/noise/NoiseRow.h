@@ -62,8 +62,8 @@ struct NoiseVariant {
   bool warped;
 };
 
-/// The same arithmetic for different processors; the bits do not depend on which is taken. Null where the
-/// program was built without. Asking for one that the processor lacks is fine, calling it is not.
+/// The same arithmetic for different processors; the bits do not depend on which is taken. The last two are
+/// there where Teren is built for x86-64. Asking for one that the processor lacks is fine, calling it is not.
 NoiseRowKernel noiseKernelPlain(NoiseVariant variant) noexcept;
 NoiseRowKernel noiseKernelAvx2(NoiseVariant variant) noexcept;
 NoiseRowKernel noiseKernelAvx512(NoiseVariant variant) noexcept;

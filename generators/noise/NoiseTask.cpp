@@ -11,7 +11,7 @@
 namespace teren {
 namespace {
 
-constexpr int kWorkPerUnit = 4096;         // samples times octaves: 1 to 10 us
+constexpr int kWorkPerColumn = 32;  // samples times octaves in a unit, for a column of a tile: 1 to 20 us
 constexpr double kMostTileCells = 0x1p28;  // a tile is less wide; NoiseRow.h allows 2^31 with the margins
 
 /// The offset from a cell's corner as NoiseKernel.h takes it, and the weight of the other corner.
@@ -41,7 +41,8 @@ class NoiseTask final : public SlicedTask {
         kernel_(kernel),
         x_(noisePosition(request.i, request.u)),
         y_(noisePosition(request.j, request.v)),
-        step_(noiseStep(request.spacing, request.pitch)) {
+        step_(noiseStep(request.spacing, request.pitch)),
+        workPerUnit_(kWorkPerColumn * tileColumns) {
     const NoiseSettings& settings = noise.settings();
     const int kept = noise.kept(request.level, request.spacing);
     const bool warped = settings.warp > 0.0 && kept > 0;
@@ -129,7 +130,7 @@ class NoiseTask final : public SlicedTask {
     const int columns = row_.columns = std::min(tileColumns_, out_.columns() - west_);
     const int end = std::min(out_.rows(), south_ + tileRows_);
     const int work = columns * (static_cast<int>(octaves_.size()) + 1);
-    for (int rows = std::max(1, kWorkPerUnit / work); rows > 0 && rowNumber_ < end; --rows) {
+    for (int rows = std::max(1, workPerUnit_ / work); rows > 0 && rowNumber_ < end; --rows) {
       for (std::size_t n = 0; n < octaves_.size(); ++n) beginRow(octaves_[n], rows_[n]);
       kernel_(row_);
       std::copy_n(heights_, columns, out_.row(rowNumber_++) + west_);
@@ -216,6 +217,7 @@ class NoiseTask final : public SlicedTask {
   NoiseRowKernel kernel_;
   WideWord x_, y_;      // of the first sample [2^-32 pitches]
   std::uint64_t step_;  // between samples
+  int workPerUnit_;
   std::vector<Octave> octaves_;
   std::vector<NoiseOctaveRow> rows_;
   std::vector<std::uint32_t> words_;  // of the tile's columns, four rows an octave
