@@ -64,7 +64,8 @@ class Noise {
 
   /// ContinuousGenerator::fieldError: for every octave the least of three bounds. Linear interpolation over a
   /// right triangle with legs s is off by at most s^2 / 4 times the largest second derivative, s / sqrt 2
-  /// times the largest slope, or largest minus smallest. Creases have no second derivative.
+  /// times the largest slope, or largest minus smallest. Creases have no second derivative. In trials 1 to 5
+  /// times what was found, with warp up to 9.
   double fieldError(double spacing) const noexcept;
 
   /// Begins a rectangle; ContinuousGenerator::beginField. spacing: 2^-32 ... 2^31 pitches. The task allocates
