@@ -1,6 +1,8 @@
 #include "plugin/LoadedLibrary.h"
 
+#include <csignal>
 #include <cstddef>
+#include <ctime>
 #include <dlfcn.h>
 #include <sys/mman.h>
 #include <system_error>
@@ -34,7 +36,30 @@ void* open(const std::string& path) {
   return dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
 }
 
+/// Where a process may write no files of such a size (ulimit -f), writing one shall fail and not end the
+/// process, which is what the signal SIGXFSZ does. Of this thread alone, as the signal is.
+class FileSizeSignalHeld {
+ public:
+  FileSizeSignalHeld() {
+    sigemptyset(&signal_);
+    sigaddset(&signal_, SIGXFSZ);
+    pthread_sigmask(SIG_BLOCK, &signal_, &before_);
+  }
+  ~FileSizeSignalHeld() {
+    constexpr timespec kNoTime{};
+    while (sigtimedwait(&signal_, nullptr, &kNoTime) == SIGXFSZ) {
+    }
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  FileSizeSignalHeld(const FileSizeSignalHeld&) = delete;
+  FileSizeSignalHeld& operator=(const FileSizeSignalHeld&) = delete;
+
+ private:
+  sigset_t signal_{}, before_{};
+};
+
 bool writeAll(int file, std::string_view bytes) {
+  const FileSizeSignalHeld held;
   while (!bytes.empty()) {
     const ssize_t written = write(file, bytes.data(), bytes.size());
     if (written <= 0) return false;
@@ -58,7 +83,7 @@ Result<LoadedLibrary> LoadedLibrary::map(const std::filesystem::path& file) {
 Result<LoadedLibrary> LoadedLibrary::copy(std::string_view bytes, const std::string& name) {
   LoadedLibrary library(nullptr, memfd_create(name.c_str(), MFD_CLOEXEC));
   if (library.memoryFile_ < 0 || !writeAll(library.memoryFile_, bytes)) {
-    return Error{"there is no memory for a copy of it"};
+    return Error{"there is no room for a copy of it"};
   }
   const std::string path = pathOf(library.memoryFile_);
   if (Result<void> object = checkSharedObject(path); !object) return object.error();

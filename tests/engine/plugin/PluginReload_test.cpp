@@ -2,6 +2,7 @@
 #include <elf.h>
 #include <iterator>
 #include <string>
+#include <sys/resource.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -160,6 +161,19 @@ TEST_P(PluginReload, LeavesNothingOfWhatItRefuses) {
   fs::copy_file(kModules / "broken" / "teren-wrong-magic.so", folder_ / "teren-wrong-magic.so");
   for (int n = 0; n < 5; ++n) EXPECT_EQ((*registry->reloaded())->refused().size(), 1U);
   EXPECT_EQ(openFiles(), before);
+}
+
+TEST_P(PluginReload, IsRefusedWhereTheProcessMayWriteNoFileOfThatSize) {
+  const Registry registry = load(ModuleLoading::copied);
+  put(2);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small = {5000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto reloaded = registry->reloaded();
+  setrlimit(RLIMIT_FSIZE, &before);
+  ASSERT_FALSE(reloaded.ok());
+  EXPECT_NE(reloaded.error().message.find("there is no room for a copy of it"), std::string::npos);
 }
 
 TEST_P(PluginReload, IsNotFooledByARefusedModuleThatCannotBeUnloaded) {
