@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <system_error>
 
 #include "teren/PluginRegistry.h"
@@ -44,6 +45,12 @@ class NewPluginCommand final : public Command {
     }
     if (kind != "generator" && kind != "filter") {
       return fail(kWrongInput, "--kind is " + inQuotes(kind) + ", expected generator or filter");
+    }
+    const std::shared_ptr<const PluginRegistry> registry = PluginRegistry::standard();
+    if (const PluginInfo* other = registry->find(id); other != nullptr) {
+      return fail(kWrongInput, "there is a plugin " + inQuotes(id) + " already, " + other->file.string() +
+                                   "; yours would take its place in every world that uses it, so choose "
+                                   "another ID");
     }
     const fs::path folder = "teren-" + id;
     std::error_code problem;

@@ -42,6 +42,14 @@ TEST(NewPlugin, RefusesWhatIsNoIdAndNoKind) {
   expectRefusal(Program({"new-plugin", "a", "--kind", "deformer"}).finish(), 2, "\"deformer\"");
 }
 
+TEST(NewPlugin, RefusesTheIdOfAPluginThatIsThere) {
+  for (const char* kind : {"generator", "filter"}) {
+    expectRefusal(Program({"new-plugin", "flat", "--kind", kind}).finish(), 2,
+                  "there is a plugin \"flat\" already, " TEREN_TEST_MODULES "/good/teren-flat.so");
+  }
+  EXPECT_EQ(Program({"new-plugin", "no-symbol"}).finish().exitCode, 0) << "a refused module is no plugin";
+}
+
 TEST(NewPlugin, LeavesNothingHalfOnAFullDisk) {
   Program::Settings settings;
   settings.largestFile = 100;
