@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "generators/tin/SpatialOrder.h"
 #include "generators/tin/Triangulation.h"
@@ -127,27 +128,56 @@ Result<Insertion> Triangulation::insert(double x, double y, double height, Trian
 std::vector<VertexId> Triangulation::insert(std::span<const LatticePoint> points,
                                             std::span<const double> heights) {
   assert(points.size() == heights.size());
-  const bool manyMore = points.size() >= mesh_.vertexCount();
-  if (manyMore) {
-    mesh_.reserve(mesh_.vertexSlots() + points.size(), mesh_.triangleSlots() + 2 * points.size());
-    heights_.reserve(heights_.size() + points.size());
-  }
+  std::vector<std::uint32_t> order = hilbertOrder(points);
+  if (points.size() >= mesh_.vertexCount()) return insertMany(points, heights, std::move(order));
   std::vector<VertexId> vertices(points.size());
   TriangleId near = kNoTriangle;
-  for (const std::uint32_t i : hilbertOrder(points)) {
-    assert(frame_.contains(points[i]));
-    const Location place = near == kNoTriangle || !manyMore ? locate(points[i], near) : walk(points[i], near);
-    VertexId v = corners(place.triangle)[place.corner];
-    if (place.kind != Location::Kind::vertex) {
-      v = newVertex(points[i], heights[i]);
-      insertAt(v, place);
-      if (!manyMore) grid_.add(points[i], v);
-    }
-    vertices[i] = v;
-    near = triangleAt(v);
+  for (const std::uint32_t i : order) {
+    vertices[i] = insert(points[i], heights[i], near).vertex;
+    near = triangleAt(vertices[i]);
   }
-  if (manyMore) mesh_.sortTriangles();
-  if (manyMore || grid_.isCoarseFor(mesh_.vertexCount())) rebuildGrid();
+  return vertices;
+}
+
+/// Vertices get consecutive ids along the curve; every eighth of them is connected first and the others then,
+/// for along the curve alone each would dig up half as many triangles again.
+std::vector<VertexId> Triangulation::insertMany(std::span<const LatticePoint> points,
+                                                std::span<const double> heights,
+                                                std::vector<std::uint32_t> order) {
+  const std::size_t count = points.size();
+  mesh_.reserve(mesh_.vertexSlots() + count, mesh_.triangleSlots() + 2 * count);
+  heights_.reserve(heights_.size() + count);
+  const VertexId base = vertexSlots();
+  for (const std::uint32_t i : order) {
+    assert(frame_.contains(points[i]) && std::isfinite(heights[i]));
+    mesh_.appendVertex(points[i]);
+    heights_.push_back(heights[i]);
+  }
+  std::vector<VertexId> vertices(count);
+  TriangleId near = kNoTriangle;
+  const auto connect = [&](std::size_t n) {
+    VertexId v = base + static_cast<VertexId>(n);
+    const LatticePoint p = point(v);
+    const Location place = near == kNoTriangle ? locate(p) : walk(p, near);
+    if (place.kind != Location::Kind::vertex) {
+      insertAt(v, place);
+    } else {
+      mesh_.freeVertex(v);
+      v = corners(place.triangle)[place.corner];
+      if (v >= base && order[n] < order[v - base]) {  // the first of equal points counts
+        heights_[v] = heights[order[n]];
+        order[v - base] = order[n];
+      }
+    }
+    vertices[order[n]] = v;
+    near = triangleAt(v);
+  };
+  for (std::size_t n = 0; n < count; n += 8) connect(n);
+  for (std::size_t n = 0; n < count; ++n) {
+    if (n % 8 != 0) connect(n);
+  }
+  mesh_.sortTriangles();
+  rebuildGrid();
   return vertices;
 }
 

@@ -62,11 +62,13 @@ class TriangleMesh {
     std::array<Link, 3> link;  // across the side opposite that vertex; the first chains free triangles
   };
 
+  /// A vertex with an id that is the next above all others, or that of one removed.
+  VertexId appendVertex(LatticePoint p) {
+    vertices_.push_back({p, Link::outside(), 0});
+    return static_cast<VertexId>(vertices_.size() - 1);
+  }
   VertexId addVertex(LatticePoint p) {
-    if (freeVertex_ == kNoVertex) {
-      vertices_.push_back({p, Link::outside(), 0});
-      return static_cast<VertexId>(vertices_.size() - 1);
-    }
+    if (freeVertex_ == kNoVertex) return appendVertex(p);
     const VertexId v = freeVertex_;
     freeVertex_ = static_cast<VertexId>(vertices_[v].point.x);
     --freeVertices_;

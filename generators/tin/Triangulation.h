@@ -223,6 +223,8 @@ class Triangulation {
 
   // Insertion.cpp
   VertexId newVertex(LatticePoint p, double height);
+  std::vector<VertexId> insertMany(std::span<const LatticePoint> points, std::span<const double> heights,
+                                   std::vector<std::uint32_t> order);
   void insertAt(VertexId v, const Location& place);
   void dig(LatticePoint p, TriangleId t, int firstSide, int sides);
   void fillWithFan(VertexId v, bool closed);

@@ -79,6 +79,7 @@ TEST(Triangulation, ManyPointsAtOnceMakeTheMeshThatOneByOneMakes) {
         {static_cast<std::int32_t>(random.nextBits(28)), static_cast<std::int32_t>(random.nextBits(28))});
   }
   points[1000] = points[10];
+  for (const int n : {7, 300, 301, 302, 1500, 2999}) points[n] = points[2];
   std::vector<double> heights;
   for (std::size_t i = 0; i < points.size(); ++i) heights.push_back(static_cast<double>(i));
   const std::vector<VertexId> ids = many.insert(points, heights);
@@ -87,6 +88,8 @@ TEST(Triangulation, ManyPointsAtOnceMakeTheMeshThatOneByOneMakes) {
   ASSERT_EQ(many.vertexCount(), single.vertexCount());
   EXPECT_EQ(ids[1000], ids[10]);
   EXPECT_EQ(many.height(ids[1000]), 10.0);
+  EXPECT_EQ(ids[301], ids[2]);
+  EXPECT_EQ(many.height(ids[2]), 2.0);
   // No four of these points lie on a circle, so there is one Delaunay triangulation.
   for (TriangleId t = 0; t < many.triangleSlots(); ++t) {
     const std::array<VertexId, 3>& corners = many.corners(t);
