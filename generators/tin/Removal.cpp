@@ -86,28 +86,58 @@ void Triangulation::fillQuadrangle(std::uint32_t first) {
   fillTriangle({rim[n].from, Link(t, 1)}, rim[(n + 2) % 4], rim[(n + 3) % 4]);
 }
 
-/// Fills the gap in ring_. Four corners are decided exactly. Of more, the ear that is due first is cut; since
-/// the times are rounded, the new edges are then checked exactly and flipped where the rounding misled.
-void Triangulation::cutEars() {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  for (RingCorner& corner : ring_) corner.time = ring_.size() > 4 ? earTime(corner) : kNever;
-  suspects_.clear();
-  std::uint32_t any = 0;
-  for (std::size_t left = ring_.size(); left > 4; --left) {
-    std::uint32_t best = any;
+/// A corner's ear is due at another time than before.
+void Triangulation::reschedule(std::uint32_t corner, bool queued) {
+  const double time = earTime(ring_[corner]);
+  ring_[corner].time = time;
+  if (!queued || time == std::numeric_limits<double>::infinity()) return;
+  due_.push_back({time, corner});
+  std::push_heap(due_.begin(), due_.end());
+}
+
+/// The corner whose ear is due first, of those that are left, `any` among them.
+std::uint32_t Triangulation::firstDue(std::uint32_t any, bool queued) {
+  std::uint32_t best = any;
+  if (!queued) {
     for (std::uint32_t i = ring_[any].after; i != any; i = ring_[i].after) {
       if (ring_[i].time < ring_[best].time) best = i;
     }
-    assert(ring_[best].time < kNever);
-    RingCorner& a = ring_[ring_[best].before];
-    RingCorner& c = ring_[ring_[best].after];
-    const TriangleId t = fillTriangle(a.rim, ring_[best].rim, {c.rim.from, Link::outside()});
+  } else {
+    for (bool current = false; !current; due_.pop_back()) {
+      assert(!due_.empty());
+      std::pop_heap(due_.begin(), due_.end());
+      best = due_.back().corner;
+      current = due_.back().time == ring_[best].time;  // else it has been cut or rescheduled since
+    }
+  }
+  assert(ring_[best].time < std::numeric_limits<double>::infinity());
+  return best;
+}
+
+/// Fills the gap in ring_. Four corners are decided exactly. Of more, the ear that is due first is cut; since
+/// the times are rounded, the new edges are then checked exactly and flipped where the rounding misled.
+void Triangulation::cutEars() {
+  constexpr std::size_t kFew = 24;  // up to so many corners looking at each is faster than a queue
+  const bool queued = ring_.size() > kFew;
+  suspects_.clear();
+  due_.clear();
+  if (ring_.size() > 4) {
+    for (std::uint32_t i = 0; i < ring_.size(); ++i) reschedule(i, queued);
+  }
+  std::uint32_t any = 0;
+  for (std::size_t left = ring_.size(); left > 4; --left) {
+    const std::uint32_t best = firstDue(any, queued);
+    const std::uint32_t before = ring_[best].before, after = ring_[best].after;
+    const TriangleId t =
+        fillTriangle(ring_[before].rim, ring_[best].rim, {ring_[after].rim.from, Link::outside()});
     suspects_.push_back(Link(t, 1));
-    a.rim.outer = Link(t, 1);
-    any = c.before = ring_[best].before;
-    a.after = ring_[best].after;
-    a.time = earTime(a);
-    c.time = earTime(c);
+    ring_[best].time = std::numeric_limits<double>::infinity();
+    ring_[before].rim.outer = Link(t, 1);
+    ring_[before].after = after;
+    ring_[after].before = before;
+    reschedule(before, queued);
+    reschedule(after, queued);
+    any = before;
   }
   if (ring_[ring_[ring_[any].after].after].after == any) {
     fillTriangle(ring_[any].rim, ring_[ring_[any].after].rim, ring_[ring_[any].before].rim);

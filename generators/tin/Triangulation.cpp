@@ -35,8 +35,9 @@ void Triangulation::reserve(std::size_t vertices) {
 std::size_t Triangulation::bytes() const noexcept {
   return sizeof(*this) + mesh_.bytes() + heights_.bytes() + table_.bytes() + grid_.bytes() +
          (rim_.capacity() + pending_.capacity()) * sizeof(Rim) + freed_.capacity() * sizeof(TriangleId) +
-         ring_.capacity() * sizeof(RingCorner) + suspects_.capacity() * sizeof(Link) +
-         (crossed_.capacity() + made_.capacity()) * sizeof(Edge) + pieces_.capacity() * sizeof(Piece);
+         ring_.capacity() * sizeof(RingCorner) + due_.capacity() * sizeof(Due) +
+         suspects_.capacity() * sizeof(Link) + (crossed_.capacity() + made_.capacity()) * sizeof(Edge) +
+         pieces_.capacity() * sizeof(Piece);
 }
 
 void Triangulation::rebuildGrid() {

@@ -211,6 +211,15 @@ class Triangulation {
     Link barrier;
   };
 
+  /// When a corner's ear is due; the first of a heap is due first.
+  struct Due {
+    double time = 0.0;
+    std::uint32_t corner = 0;
+    bool operator<(const Due& other) const noexcept {
+      return time != other.time ? time > other.time : corner > other.corner;
+    }
+  };
+
   void note(TriangleId t, bool created) {
     if (changes_ != nullptr) changes_->push_back({mesh_.triangle(t).vertex, created, t});
   }
@@ -232,6 +241,8 @@ class Triangulation {
   // Removal.cpp
   void collectRing(VertexId v);
   double earTime(const RingCorner& b) const noexcept;
+  void reschedule(std::uint32_t corner, bool queued);
+  std::uint32_t firstDue(std::uint32_t any, bool queued);
   void cutEars();
   void fillQuadrangle(std::uint32_t first);
   TriangleId fillTriangle(const Rim& a, const Rim& b, const Rim& c);
@@ -262,6 +273,7 @@ class Triangulation {
   std::vector<Rim> pending_;
   std::vector<TriangleId> freed_;
   std::vector<RingCorner> ring_;
+  std::vector<Due> due_;
   std::vector<Link> suspects_;
   std::vector<Edge> crossed_;
   std::vector<Edge> made_;
