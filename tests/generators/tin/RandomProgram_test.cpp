@@ -41,7 +41,7 @@ void runProved(PointKind kind, std::uint64_t seed, std::size_t vertices, std::in
 }
 
 TEST_P(RandomPrograms, LeaveAMeshThatCanBeProvedAfterEveryOperationAndEqualsCgals) {
-  const int steps = longVersion() ? 20000 : 500;
+  const int steps = longVersion() ? 10000 : 500;
   // A box of few steps is full of equal points, and of crossings that are rounded onto something.
   for (const std::int32_t side : {20, 300, 1 << 24, kLatticeSide}) {
     for (const std::size_t vertices : {20, 250}) {
