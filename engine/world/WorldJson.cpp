@@ -279,8 +279,8 @@ Result<WorldDescription> WorldDescription::fromJson(std::string_view text, std::
 Result<WorldDescription> WorldDescription::fromFile(const std::filesystem::path& file) {
   const std::string name = file.empty() ? "\"\"" : shortened(file.string(), kShownSource);
   std::error_code problem;
-  const bool cutShort =
-      file.native().find('\0') != std::string::npos;  // by the system, which would open another
+  // A zero byte ends a name for the system, which would open another file.
+  const bool cutShort = file.native().find('\0') != std::string::npos;
   if (cutShort || !std::filesystem::is_regular_file(file, problem)) {
     return Error{name + " is not a file that can be read, expected a world description in JSON"};
   }
