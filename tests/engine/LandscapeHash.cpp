@@ -68,12 +68,13 @@ teren::WorldDescription filteredFaults() {
   return description;
 }
 
-/// A layer of each of the other generators, and the filter that needs many passes.
+/// A layer of each of the other generators, of noise as a field and as filtered maps, and the filter that
+/// needs many passes.
 teren::WorldDescription otherGenerators() {
   teren::WorldDescription description;
   description.seed = 8;
   double pitch = 64.0;
-  for (const char* generator : {"circles", "midpoint", "slope", "spectral", "steps"}) {
+  for (const char* generator : {"circles", "midpoint", "slope", "spectral", "steps", "noise", "noise"}) {
     teren::LayerDescription layer;
     layer.generator = generator;
     layer.pitch = pitch;
@@ -82,6 +83,9 @@ teren::WorldDescription otherGenerators() {
   }
   description.layers[0].parameters = {{"discs", std::int64_t{25}}};
   description.layers[1].filters = {{"thermal", {}}};
+  description.layers[5].parameters = {{"warp", 300.0}};
+  description.layers[6].parameters = {{"kind", std::string("simplex")}, {"fractal", std::string("ridged")}};
+  description.layers[6].filters = {{"band", {}}};
   return description;
 }
 
