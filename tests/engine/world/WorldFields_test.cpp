@@ -163,6 +163,45 @@ TEST(WorldFields, AreDrawnAsTheirMeanAboveTheirCut) {
   EXPECT_EQ(spread(4), 0.0F);
 }
 
+TEST(WorldFields, OfTheProjectsOwnNoiseAreOneFunctionByEveryRouteToTheWorldsEnds) {
+  const std::vector<Values::Entry> settings[] = {
+      {{"frequency", 0.004}, {"warp", 300.0}},
+      {{"kind", std::string("simplex")}, {"frequency", 0.004}, {"fractal", std::string("ridged")}}};
+  for (const std::vector<Values::Entry>& parameters : settings) {
+    const auto generator = testRegistry().makeGenerator("noise", parameters).value();
+    ASSERT_NE(asContinuous(*generator), nullptr);
+    LayerDescription layer = field(512.0, 40.0, 128.0);
+    layer.generator = "noise";
+    layer.parameters = parameters;
+    WorldDescription description = worldOf({layer}, 7);
+    description.samples = 33;
+    const auto world = makeTestWorld(description);
+    for (const std::int64_t base : {std::int64_t{-16}, (std::int64_t{1} << 40) - 16, kMaxPatch - 32}) {
+      for (int level = 0; level <= 4; ++level) {
+        SCOPED_TRACE(testing::Message() << "patch " << base << ", level " << level);
+        const BakeRegion region{base, -base - 32, 32, 32, level};
+        const HeightMap map = baked(*world, region);
+        const FieldRequest request{.i = region.i >> 3,
+                                   .j = region.j >> 3,
+                                   .seed = layerSeed(7, "noise"),
+                                   .pitch = 512.0,
+                                   .spacing = 4.0 * (1 << level),
+                                   .columns = map.columns(),
+                                   .rows = map.rows(),
+                                   .level = level};
+        HeightMap whole(map.columns(), map.rows());
+        test::finish(*asContinuous(*generator)->beginField(request, whole.view()));
+        ASSERT_TRUE(test::sameBits(map.view(), whole.view()));
+        for (int k = 0; level == 0 && k < 200; ++k) {
+          const int x = (k * 37) % (map.columns() - 1), y = (k * 101) % (map.rows() - 1);
+          ASSERT_EQ(bits(world->height(placeIn(*world, region, x, y))), bits(map(x, y))) << x << ", " << y;
+        }
+      }
+    }
+    EXPECT_FALSE(world->failure().has_value());
+  }
+}
+
 // ---- Law 1: the same bits ----
 
 TEST(WorldFields, HaveTheSameBitsForAnySlicesOrderAndWorkers) {
