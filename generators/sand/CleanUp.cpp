@@ -31,7 +31,7 @@ double CleanUp::carried(VertexId v) const noexcept {
 
 /// Rounds upwards, so that the bound stays one.
 void CleanUp::carry(VertexId v, double error) {
-  if (v >= carried_.size()) carried_.resize(v + 1, 0);
+  while (v >= carried_.size()) carried_.push_back(0);
   const double parts = error > 0.0 ? -std::floor(-(error / tolerance_ * kParts)) : 0.0;
   carried_[v] = static_cast<std::uint16_t>(std::min(parts, kParts));
 }

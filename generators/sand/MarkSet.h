@@ -14,7 +14,7 @@ class MarkSet {
   /// True where the id was not in the set.
   bool insert(std::uint32_t id) {
     const std::size_t word = id >> 6;
-    if (word >= words_.size()) words_.resize(word + 1, 0);
+    while (word >= words_.size()) words_.push_back(0);
     const std::uint64_t bit = std::uint64_t{1} << (id & 63U);
     const bool isNew = (words_[word] & bit) == 0;
     words_[word] |= bit;

@@ -15,7 +15,7 @@ double within(double value, double least, double most, double otherwise) noexcep
 Repose reposeOf(double dryAngle, double moisture) noexcept {
   const double angle =
       within(dryAngle, 1.0, 60.0, kDryRepose) + kMoistureGain * within(moisture, 0.0, 1.0, 0.0);
-  return {tangentOfDegrees(angle), tangentOfDegrees(angle + kSlideThreshold),
+  return {tangentOfDegrees(angle - kRestBelow), tangentOfDegrees(angle + kSlideThreshold),
           tangentOfDegrees(angle + kDivideThreshold)};
 }
 

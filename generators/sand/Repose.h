@@ -7,9 +7,12 @@ namespace teren {
 inline constexpr double kDryRepose = 30.0;  // [degree]
 /// Damp sand, as castles are made of, lies steeper by as much.
 inline constexpr double kMoistureGain = 15.0;  // [degree]
-/// A face slides where it is steeper than the angle of repose by this, and then to the angle itself; so one
-/// face's slide does not start its neighbours', and nothing oscillates.
+/// A face slides where it is steeper than the angle of repose by this.
 inline constexpr double kSlideThreshold = 0.05;  // [degree]
+/// It comes to rest below the angle by this: real sand, once it moves, stops a degree or two below the slope
+/// that it stood at. So one face's slide rarely starts its neighbours', nothing oscillates, and sand comes to
+/// rest in little more than half the steps that the angle itself would take.
+inline constexpr double kRestBelow = 0.5;  // [degree]
 /// Long edges are divided where a face is steeper by this. What lies between slides little, and would be
 /// divided for nothing: a clean-up would take the vertex away, and so on for ever.
 inline constexpr double kDivideThreshold = 2.0;  // [degree]

@@ -29,9 +29,9 @@ SandSurface::SandSurface(const LatticeFrame& frame, std::span<const LatticePoint
                          std::span<const double> heights, double loose, std::size_t spare)
     : mesh_(frame, heights.empty() ? 0.0 : metresFromTicks(ticksFromMetres(heights.front()))) {
   assert(points.size() == heights.size());
-  mesh_.reserve(4 + points.size() + spare);
-  loose_.reserve(4 + points.size() + spare);
   const std::vector<VertexId> vertices = mesh_.insert(points, heights);
+  mesh_.reserve(mesh_.vertexSlots() + spare);
+  loose_.reserve(mesh_.vertexSlots() + spare);
   const std::int64_t thickness = std::max<std::int64_t>(ticksFromMetres(loose), 0);
   loose_.resize(mesh_.vertexSlots(), thickness);
   for (std::size_t i = points.size(); i-- > 0;) {  // of equal points the first counts
@@ -81,7 +81,7 @@ void SandSurface::setHeight(VertexId v, std::int64_t ticks) noexcept {
 
 /// Gives a vertex that has come its height and its loose thickness.
 void SandSurface::adopt(VertexId v, std::int64_t ticks, std::int64_t loose) {
-  if (v >= loose_.size()) loose_.resize(v + 1, kNoLoose);
+  while (v >= loose_.size()) loose_.push_back(kNoLoose);
   loose_[v] = loose;
   setHeight(v, ticks);
 }

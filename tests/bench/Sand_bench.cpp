@@ -1,0 +1,140 @@
+// One iteration of a dragged tool on meshes of 10^4, 10^5 and 10^6 vertices, in turns in one run: medians of
+// CPU time in all and per part, their ratio, and bytes per vertex.
+//   bench-sand [ITERATIONS [VERTICES]...]
+// The tool is a disc of 12 corners whose radius is 6 times the mean distance of vertices, so that it covers
+// about 110 of them in every mesh; it is as deep as half its radius, and stamps a third of its radius apart.
+// All ground is loose. An iteration is one stamp, at most 20,000 steps of slides, the clean-up, and the list
+// of changes. The bound is latency: stars and queues of a few thousand faces, scattered over a large mesh.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <memory>
+#include <vector>
+
+#include "teren/Hash.h"
+
+#include "generators/sand/Sandbox.h"
+
+namespace teren {
+namespace {
+
+constexpr int kSideBits = 24;
+constexpr std::uint64_t kSteps = 20'000;
+
+double seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+SandSurface scattered(int count) {
+  LatticeFrame frame;
+  frame.step = std::ldexp(1.0, -kSideBits);
+  frame.width = frame.height = std::int32_t{1} << kSideBits;
+  RandomSequence random(static_cast<std::uint64_t>(count));
+  std::vector<LatticePoint> points(static_cast<std::size_t>(count) - 4);
+  for (LatticePoint& p : points) {
+    p = {static_cast<std::int32_t>(random.nextBits(kSideBits)),
+         static_cast<std::int32_t>(random.nextBits(kSideBits))};
+  }
+  return SandSurface(frame, points, std::vector<double>(points.size(), 0.0), 1.0, points.size() / 64);
+}
+
+/// What iterations cost [s], and how many vertices and triangles changed.
+struct Samples {
+  std::vector<double> all, stamp, slide, clean, changed;
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+double highest(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+class Drag {
+ public:
+  explicit Drag(int count)
+      : count_(count),
+        spacing_(1.0 / std::sqrt(count)),
+        tool_(*ToolShape::disc(6.0 * spacing_, 3.0 * spacing_)),
+        sandbox_(scattered(count), settings(spacing_)),
+        start_(static_cast<double>(sandbox_.surface().mesh().vertexCount())),
+        bytesAtStart_(static_cast<double>(sandbox_.bytes())) {}
+
+  void iterate() {
+    const double x = 0.5 + 0.25 * std::cos(angle_), y = 0.5 + 0.25 * std::sin(angle_);
+    const StampPlace place{x, y, 0.0, -std::sin(angle_), std::cos(angle_)};
+    angle_ += 2.0 * spacing_ / 0.25;
+    const double begin = seconds();
+    (void)*sandbox_.stamp(tool_, place);
+    const double stamped = seconds();
+    sandbox_.slide(kSteps);
+    const double slid = seconds();
+    sandbox_.clean();
+    const double cleaned = seconds();
+    samples_.changed.push_back(static_cast<double>(sandbox_.changedVertices().ids().size() +
+                                                   sandbox_.changedTriangles().ids().size()));
+    sandbox_.forgetChanges();
+    samples_.all.push_back(seconds() - begin);
+    samples_.stamp.push_back(stamped - begin);
+    samples_.slide.push_back(slid - stamped);
+    samples_.clean.push_back(cleaned - slid);
+  }
+
+  void print() const {
+    const SandSurface& surface = sandbox_.surface();
+    const double vertices = static_cast<double>(surface.mesh().vertexCount());
+    std::printf(
+        "%8d: iteration %.3f ms (largest %.2f), stamp %.3f, slide %.3f, clean-up %.3f; changed %.0f; "
+        "bytes per vertex %.1f at first, %.1f after; vertices %+.0f; %s\n",
+        count_, 1e3 * median(samples_.all), 1e3 * highest(samples_.all), 1e3 * median(samples_.stamp),
+        1e3 * median(samples_.slide), 1e3 * median(samples_.clean), median(samples_.changed),
+        bytesAtStart_ / start_, static_cast<double>(sandbox_.bytes()) / vertices, vertices - start_,
+        sandbox_.slides().atRest() ? "at rest" : "still sliding");
+  }
+  double medianTime() const { return median(samples_.all); }
+
+ private:
+  static SandSettings settings(double spacing) {
+    SandSettings settings;
+    settings.longestEdge = 4.0 * spacing;
+    settings.flatness = 0.02 * spacing;
+    settings.stamp.fit = 0.2 * spacing;
+    return settings;
+  }
+
+  int count_;
+  double spacing_;
+  ToolShape tool_;
+  Sandbox sandbox_;
+  double start_;
+  double bytesAtStart_;
+  double angle_ = 0.0;
+  Samples samples_;
+};
+
+}  // namespace
+}  // namespace teren
+
+int main(int argc, char** argv) {
+  const int iterations = argc > 1 ? std::atoi(argv[1]) : 200;
+  std::vector<int> counts{10'000, 100'000, 1'000'000};
+  if (argc > 2) counts.clear();
+  for (int k = 2; k < argc; ++k) counts.push_back(std::max(std::atoi(argv[k]), 100));
+  std::vector<std::unique_ptr<teren::Drag>> drags;
+  for (const int count : counts) drags.push_back(std::make_unique<teren::Drag>(count));
+  for (int n = 0; n < iterations; ++n) {
+    for (const auto& drag : drags) drag->iterate();
+  }
+  for (const auto& drag : drags) drag->print();
+  if (drags.size() > 1) {
+    std::printf("median at %d / median at %d = %.2f (wanted: below 2)\n", counts.back(), counts.front(),
+                drags.back()->medianTime() / drags.front()->medianTime());
+  }
+}
