@@ -34,7 +34,7 @@ class Deviation final : public Property {
     for (const Setting& setting : subject.settings()) {
       const MapMaker maker = subject.maker(setting);
       Ensemble ensemble(maker);
-      const Allowance allowance(effort.perSetting);
+      const Allowance allowance(effort.forEnsemble(setting.empty()));
       for (int n = 0; n < kPatience * effort.seeds && (n < kFewest || allowance.left()); ++n) {
         ensemble.add();
         if (ensemble.seeds() % effort.seeds == 0 && verdict(maker, ensemble) != Verdict::open) break;

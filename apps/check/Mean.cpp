@@ -31,7 +31,7 @@ class Mean final : public Property {
     for (const Setting& setting : subject.settings()) {
       const MapMaker maker = subject.maker(setting);
       Ensemble ensemble(maker);
-      const Allowance allowance(effort.perSetting);
+      const Allowance allowance(effort.forEnsemble(setting.empty()));
       for (int n = 0; n < effort.seeds && (n < kFewest || allowance.left()); ++n) ensemble.add();
       compare(maker, ensemble);
       if (figure.empty()) figure = text(ensemble, ensemble.mean());

@@ -24,6 +24,11 @@ struct Effort {
   int seeds = 1000;                           ///< of an ensemble, where time allows
   std::chrono::milliseconds perSetting{100};  ///< processor time
 
+  /// The defaults, which most worlds use, get as many seeds as they may have unless the plugin is very slow.
+  constexpr std::chrono::milliseconds forEnsemble(bool defaults) const {
+    return (defaults ? 20 : 1) * perSetting;
+  }
+
   static constexpr Effort full() { return {}; }
   /// For a look after each change.
   static constexpr Effort quick() { return {250, std::chrono::milliseconds(10)}; }
