@@ -32,7 +32,8 @@ class Flight {
 
   /// Flies on over the present land until the next engine has made as much of its own around the same
   /// objects, then goes over to it with all of them: nobody sees land that is not there. Takes the place of a
-  /// next engine given before. It must be without objects, its world of the same pitch.
+  /// next engine given before. It must be without objects, its world of the same pitch. Meanwhile both
+  /// engines hold memory, each under its own cap.
   void goOverTo(std::unique_ptr<Engine> next);
   /// Whether a next land is being made.
   bool isLeaving() const noexcept { return next_ != nullptr; }

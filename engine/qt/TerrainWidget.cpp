@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <Inventor/Qt/SoQt.h>
@@ -58,7 +59,8 @@ class TerrainWidget::Private {
  public:
   explicit Private(TerrainWidget& owner);
 
-  Result<void> setWorld(const Result<WorldDescription>& description);
+  Result<void> setWorld(const Result<WorldDescription>& next);
+  Result<void> setPlugins(std::shared_ptr<const PluginRegistry> next);
   Result<void> makeEngine(std::shared_ptr<const World> newWorld, const EngineOptions& newOptions);
   Result<void> setViewer(const Viewer& next);
   /// Says so, once, where nothing can be drawn.
@@ -80,6 +82,8 @@ class TerrainWidget::Private {
   void tell(bool resting);
 
   TerrainWidget& widget;
+  std::shared_ptr<const PluginRegistry> plugins = PluginRegistry::standard();
+  std::optional<WorldDescription> description;  // the world's
   std::shared_ptr<const World> world;
   EngineOptions options;
   std::chrono::nanoseconds budget = 4ms;
@@ -115,11 +119,22 @@ void TerrainWidget::Private::makeArea() {
 // --- The world and its engine
 // -------------------------------------------------------------------------------------
 
-Result<void> TerrainWidget::Private::setWorld(const Result<WorldDescription>& description) {
-  if (!description) return description.error();
-  const Result<std::shared_ptr<const World>> made = World::create(*description, *PluginRegistry::standard());
+Result<void> TerrainWidget::Private::setWorld(const Result<WorldDescription>& next) {
+  if (!next) return next.error();
+  const Result<std::shared_ptr<const World>> made = World::create(*next, *plugins);
   if (!made) return made.error();
-  return makeEngine(*made, options);
+  if (const Result<void> shown = makeEngine(*made, options); !shown) return shown;
+  description = *next;
+  return {};
+}
+
+Result<void> TerrainWidget::Private::setPlugins(std::shared_ptr<const PluginRegistry> next) {
+  if (!next) return Error{"the plugins are a null pointer, expected a registry"};
+  std::swap(plugins, next);
+  if (!description) return {};
+  Result<void> made = setWorld(*description);
+  if (!made) std::swap(plugins, next);
+  return made;
 }
 
 Result<void> TerrainWidget::Private::makeEngine(std::shared_ptr<const World> newWorld,
@@ -265,6 +280,10 @@ Result<void> TerrainWidget::setWorldText(const QString& json) {
 
 Result<void> TerrainWidget::setWorldFile(const QString& file) {
   return private_->report(private_->setWorld(WorldDescription::fromFile(file.toStdString())));
+}
+
+Result<void> TerrainWidget::setPlugins(std::shared_ptr<const PluginRegistry> plugins) {
+  return private_->report(private_->setPlugins(std::move(plugins)));
 }
 
 std::shared_ptr<const World> TerrainWidget::world() const {

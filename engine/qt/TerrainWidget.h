@@ -58,6 +58,11 @@ class TerrainWidget : public QWidget {
   /// nullptr before the first world.
   std::shared_ptr<const World> world() const;
 
+  /// Where plugins come from, at first PluginRegistry::standard(). With a world there it is made anew from
+  /// the same description, and the land stays until the new one is there: what to do with
+  /// PluginRegistry::reloaded(). What is refused leaves plugins and land as they were.
+  Result<void> setPlugins(std::shared_ptr<const PluginRegistry> plugins);
+
   /// The view's level and radius, the worker threads and the byte cap. With a world there it takes a new
   /// engine, which makes the view anew; what is refused leaves the options as they were. Without a world
   /// nothing is refused yet.

@@ -1,7 +1,9 @@
 #include "qt/TerrainWidget.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
@@ -20,6 +22,7 @@
 #include <gtest/gtest.h>
 
 #include "coin/SoTerrain.h"
+#include "tests/engine/plugin/ScratchFolder.h"
 #include "tests/qt/Sight.h"
 
 namespace teren {
@@ -400,6 +403,34 @@ TEST(TerrainWidget, MayBeDeletedByWhomItTellsOfItsFigures) {
   QObject::connect(land, &TerrainWidget::figuresChanged, land, [land] { delete land; });
   ASSERT_TRUE(land->setViewer({.position = {50, 0, 0.0, 0.0}}).ok());
   EXPECT_TRUE(QTest::qWaitFor([&alive] { return alive.isNull(); }, 20'000));
+}
+
+TEST(TerrainWidget, MakesItsWorldAnewWithOtherPluginsAndKeepsTheOldOneWhereTheyLackOne) {
+  const ScratchFolder folder;
+  const auto put = [&folder](const char* version) {
+    std::filesystem::copy_file(std::filesystem::path(TEREN_TEST_FLY_MODULES) / version / "teren-plain.so",
+                               folder / "teren-plain.so", std::filesystem::copy_options::overwrite_existing);
+  };
+  const std::array folders = {folder.path()};
+  put("low");
+  const auto plugins = PluginRegistry::load(folders, ModuleLoading::copied);
+  TerrainWidget land;
+  QSignalSpy errors(&land, &TerrainWidget::errorOccurred);
+  ASSERT_TRUE(land.setPlugins(plugins).ok());
+  ASSERT_TRUE(land.setWorldText(QStringLiteral(R"({ "layers": [ { "generator": "plain" } ] })")).ok());
+  EXPECT_EQ(land.world()->height({}), -300.0);
+  put("high");
+  ASSERT_TRUE(land.setPlugins(plugins->reloaded().value()).ok());
+  EXPECT_EQ(land.world()->height({}), 700.0);
+  EXPECT_EQ(errors.count(), 0);
+  const Result<void> refused = land.setPlugins(PluginRegistry::load({}));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("no generator has the id \"plain\""), std::string::npos);
+  EXPECT_FALSE(land.setPlugins(nullptr).ok());
+  EXPECT_EQ(errors.count(), 2);
+  EXPECT_EQ(land.world()->height({}), 700.0);
+  EXPECT_TRUE(land.setWorldText(QStringLiteral(R"({ "layers": [ { "generator": "plain" } ] })")).ok())
+      << "the plugins are still those from before";
 }
 
 }  // namespace
