@@ -136,6 +136,10 @@ class Triangulation {
   /// The same for a point that has been located.
   double heightAt(LatticePoint p, const Location& place) const noexcept;
 
+  /// The height [m] at any place [m], taken to the nearest 2^-24 of a step; nothing where it is outside the
+  /// box or not a number. At lattice points the same bits as above, on edges again from both sides.
+  std::optional<double> heightAt(double x, double y, TriangleId hint = kNoTriangle) const noexcept;
+
   /// Adds a vertex. Where there is one already, nothing changes. The height must be finite.
   Insertion insert(LatticePoint p, double height, TriangleId hint = kNoTriangle);
   /// Adds a vertex on the surface as it is: heightAt(p).

@@ -157,6 +157,35 @@ TEST(Triangulation, APlaneIsInterpolatedAsAPlane) {
   }
 }
 
+TEST(Triangulation, HeightsBetweenLatticePointsLieOnTheTrianglesAndJoinAtEdges) {
+  RandomSequence random(17);
+  const LatticeFrame frame{.x = -8.0, .y = 4.0, .step = 0.25, .width = 64, .height = 64};
+  Triangulation mesh(frame);
+  for (int n = 0; n < 300; ++n) {
+    mesh.insert(
+        {static_cast<std::int32_t>(random.next() % 65), static_cast<std::int32_t>(random.next() % 65)},
+        static_cast<double>(random.nextBits(20)) / 7.0);
+  }
+  for (TriangleId t = 0; t < mesh.triangleSlots(); ++t) {
+    const auto& [a, b, c] = mesh.corners(t);
+    const LatticePoint p = mesh.point(a), q = mesh.point(b), r = mesh.point(c);
+    EXPECT_EQ(mesh.heightAt(frame.placeX(p), frame.placeY(p), t), mesh.height(a));
+    // Weights of eighths, so that places are exact; a quarter from each of two corners lies on their edge.
+    const auto at = [&](int u, int v, TriangleId hint) {
+      const int w = 8 - u - v;
+      return mesh.heightAt(frame.x + (u * p.x + v * q.x + w * r.x) / 8.0 * frame.step,
+                           frame.y + (u * p.y + v * q.y + w * r.y) / 8.0 * frame.step, hint);
+    };
+    EXPECT_NEAR(*at(3, 1, t), (3 * mesh.height(a) + mesh.height(b) + 4 * mesh.height(c)) / 8, 1e-9);
+    EXPECT_NEAR(*at(2, 6, t), (mesh.height(a) + 3 * mesh.height(b)) / 4, 1e-9);
+    const TriangleId over = mesh.neighbour(t, 2);
+    EXPECT_EQ(at(2, 6, t), at(2, 6, over == kNoTriangle ? t : over));
+  }
+  EXPECT_EQ(mesh.heightAt(0.0, 8.0), mesh.heightAt(LatticePoint{32, 16}));
+  EXPECT_FALSE(mesh.heightAt(-8.01, 5.0));
+  EXPECT_FALSE(mesh.heightAt(std::nan(""), 5.0));
+}
+
 TEST(Triangulation, RemovingEveryVertexLeavesTheBox) {
   RandomSequence random(8);
   Triangulation mesh(LatticeFrame{.width = 64, .height = 64});
