@@ -62,5 +62,6 @@ std::unique_ptr<Command> makeQueryCommand(CLI::App& parent);
 std::unique_ptr<Command> makeFlightCommand(CLI::App& parent);
 std::unique_ptr<Command> makeNewPluginCommand(CLI::App& parent);
 std::unique_ptr<Command> makeCheckCommand(CLI::App& parent);
+std::unique_ptr<Command> makeSandCommand(CLI::App& parent);
 
 }  // namespace teren

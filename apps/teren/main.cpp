@@ -54,6 +54,7 @@ int main(int argumentCount, char** arguments) {
   commands.push_back(teren::makeFlightCommand(application));
   commands.push_back(teren::makeNewPluginCommand(application));
   commands.push_back(teren::makeCheckCommand(application));
+  commands.push_back(teren::makeSandCommand(application));
   application.require_subcommand(0, 1);
 
   if (const auto code = teren::parseCommandLine(application, argumentCount, arguments)) {
@@ -64,5 +65,5 @@ int main(int argumentCount, char** arguments) {
   }
   return teren::fail(
       application, teren::kWrongInput,
-      "a command is missing: plugins, describe, bake, query, flight, new-plugin or check (see teren --help)");
+      "a command is missing: plugins, describe, bake, query, flight, new-plugin, check or sand (see teren --help)");
 }

@@ -1,0 +1,161 @@
+#include "apps/teren/SandExperiment.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "teren/Hash.h"
+#include "teren/ProcessorTime.h"
+
+#include "apps/teren/SandGrid.h"
+#include "generators/sand/Sandbox.h"
+
+namespace teren {
+namespace {
+
+constexpr int kSideBits = 24;
+constexpr double kSandDepth = 1.0;  // [m]
+
+/// [s] of the thread's processor time.
+double now() {
+  return std::chrono::duration<double>(threadProcessorTime()).count();
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+SandSurface levelSand(int vertices) {
+  LatticeFrame frame;
+  frame.step = std::ldexp(1.0, -kSideBits);
+  frame.width = frame.height = std::int32_t{1} << kSideBits;
+  RandomSequence random(static_cast<std::uint64_t>(vertices));
+  std::vector<LatticePoint> points(static_cast<std::size_t>(vertices) - 4);
+  for (LatticePoint& p : points) {
+    p = {static_cast<std::int32_t>(random.nextBits(kSideBits)),
+         static_cast<std::int32_t>(random.nextBits(kSideBits))};
+  }
+  const std::vector<double> heights(points.size(), 0.0);
+  return SandSurface(frame, points, heights, kSandDepth, points.size() / 64 + 1024);
+}
+
+std::vector<StampPlace> wayOf(const SandExperiment& experiment) {
+  const double margin = 1.05 * experiment.radius;
+  const double end = margin + (1.0 - 2.0 * margin) * experiment.trace / 100.0;
+  return stampsAlong({margin, margin}, {end, end}, 0.5 * experiment.radius);
+}
+
+Error interruption() {
+  return Error{"interrupted"};
+}
+
+Result<void> runMesh(const SandExperiment& experiment, const ToolShape& tool, SandResult& result,
+                     const std::function<bool()>& interrupted) {
+  SandSettings settings;
+  settings.dryAngle = experiment.repose;
+  Sandbox sandbox(levelSand(experiment.vertices), settings);
+  const SixfoldVolume all = sandbox.surface().volume();
+  std::vector<double> times;
+  for (const StampPlace& place : wayOf(experiment)) {
+    const double begin = now();
+    const Result<StampReport> report = sandbox.stamp(tool, place);
+    if (!report) return report.error();
+    const double stamped = now();
+    sandbox.slide(experiment.steps);
+    const double slid = now();
+    sandbox.clean();
+    const double cleaned = now();
+    sandbox.forgetChanges();
+    result.stampTime += stamped - begin;
+    result.slideTime += slid - stamped;
+    result.cleanTime += cleaned - slid;
+    result.removedByTool += static_cast<std::uint64_t>(report->removed);
+    times.push_back(cleaned - begin);
+    if (interrupted()) return interruption();
+  }
+  const SandSurface& surface = sandbox.surface();
+  result.stamps = static_cast<int>(times.size());
+  result.medianIteration = median(std::move(times));
+  result.vertices = surface.mesh().vertexCount();
+  result.triangles = surface.mesh().triangleCount();
+  result.constraints = surface.mesh().constraintCount();
+  result.removedByCleanUp = sandbox.cleanUp().count().removed;
+  result.divided = sandbox.slides().count().splits;
+  result.slideSteps = sandbox.slides().count().steps;
+  result.sweeps = sandbox.slides().count().sweeps;
+  result.atRest = sandbox.slides().atRest();
+  const double step = surface.step();
+  result.moved = asDouble(surface.volumeMoved()) * kMetresPerTick * step * step / 6.0;
+  result.drift = surface.volumeMoved() > 0
+                     ? std::fabs(asDouble(surface.volume() - all)) / asDouble(surface.volumeMoved())
+                     : 0.0;
+  result.bytes = sandbox.bytes();
+  return {};
+}
+
+Result<void> runGrid(const SandExperiment& experiment, const ToolShape& tool, SandResult& result,
+                     const std::function<bool()>& interrupted) {
+  const ToolPart& part = tool.parts().front();
+  const ToolPoint out = part.outer.front(), in = part.inner.front().front();
+  const double wall = std::sqrt((out.x - in.x) * (out.x - in.x) + (out.y - in.y) * (out.y - in.y));
+  SandGrid grid(static_cast<int>(std::floor(1.0 / wall)) + 1, kSandDepth);
+  const Repose repose = reposeOf(experiment.repose);
+  std::vector<double> times;
+  for (const StampPlace& place : wayOf(experiment)) {
+    const double begin = now();
+    grid.stamp(place.x, place.y, experiment.radius, -experiment.depth, 0.6 * experiment.radius);
+    grid.slide(repose, experiment.steps);
+    times.push_back(now() - begin);
+    result.gridTime += times.back();
+    if (interrupted()) return interruption();
+  }
+  result.gridSide = grid.side();
+  result.gridMedianIteration = median(std::move(times));
+  result.gridBytes = grid.bytes();
+  return {};
+}
+
+}  // namespace
+
+Result<SandResult> runSandExperiment(const SandExperiment& experiment,
+                                     const std::function<bool()>& interrupted) {
+  const Result<ToolShape> tool = ToolShape::disc(experiment.radius, experiment.depth, experiment.points);
+  if (!tool) return tool.error();
+  SandResult result;
+  if (const Result<void> ran = runMesh(experiment, *tool, result, interrupted); !ran) return ran.error();
+  if (!experiment.grid) return result;
+  if (const Result<void> ran = runGrid(experiment, *tool, result, interrupted); !ran) return ran.error();
+  return result;
+}
+
+std::string sandTableHead() {
+  return "vertices,trace_percent,stamps,stamp_ms,slide_ms,clean_up_ms,iteration_median_ms,vertices_after,"
+         "triangles_after,constraints_after,removed_by_tool,removed_by_clean_up,divided,slide_steps,sweeps,"
+         "at_rest,moved_m3,drift,bytes,bytes_per_vertex,grid_side,grid_ms,grid_iteration_median_ms,grid_"
+         "bytes";
+}
+
+std::string sandTableLine(const SandExperiment& experiment, const SandResult& result) {
+  std::array<char, 512> line{};
+  std::snprintf(
+      line.data(), line.size(),
+      "%d,%g,%d,%.3f,%.3f,%.3f,%.4f,%zu,%zu,%zu,%llu,%llu,%llu,%llu,%llu,%d,%.9g,%.3g,%zu,%.1f,%d,%.3f,"
+      "%.4f,%zu",
+      experiment.vertices, experiment.trace, result.stamps, 1e3 * result.stampTime, 1e3 * result.slideTime,
+      1e3 * result.cleanTime, 1e3 * result.medianIteration, result.vertices, result.triangles,
+      result.constraints, static_cast<unsigned long long>(result.removedByTool),
+      static_cast<unsigned long long>(result.removedByCleanUp),
+      static_cast<unsigned long long>(result.divided), static_cast<unsigned long long>(result.slideSteps),
+      static_cast<unsigned long long>(result.sweeps), result.atRest ? 1 : 0, result.moved, result.drift,
+      result.bytes, static_cast<double>(result.bytes) / static_cast<double>(result.vertices), result.gridSide,
+      1e3 * result.gridTime, 1e3 * result.gridMedianIteration, result.gridBytes);
+  return line.data();
+}
+
+}  // namespace teren
