@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "teren/Plugin.h"
 #include "teren/ProcessorTime.h"
 
 #include "apps/check/Allowance.h"
@@ -17,10 +18,14 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::nanoseconds;
 
-constexpr microseconds kAsked(100), kMost(200);
+constexpr microseconds kAsked(100);
+/// What a sanitizer adds is not the plugin's.
+constexpr microseconds kMost(kSanitizerWord == 0 ? 200 : 1000);
 constexpr int kSamples = 257;
-/// So many slices are enough for a percentile.
-constexpr std::size_t kEnough = 400;
+/// So many slices are enough for a percentile; of fewer than the least, it would nearly be the longest of
+/// all. Maps that are made in a few slices are not worth the waiting.
+constexpr std::size_t kEnough = 400, kFewest = 200;
+constexpr int kMostMaps = 100, kFewestMaps = 8;
 /// A machine that is busy with other things makes single slices long, also by the thread's own clock; a
 /// plugin that overruns does so every time.
 constexpr int kAttempts = 5;
@@ -85,8 +90,11 @@ class SliceLength final : public Property {
     std::vector<nanoseconds> times;
     times.reserve(8 * kEnough);
     const Allowance allowance(effort.perSetting);
-    for (int n = 0; n < 100 && times.size() < kEnough && (n == 0 || allowance.left()); ++n)
-      measure(maker, requestOf(n, kSamples), map.view(), times);
+    const auto wanted = [&](int maps) {
+      if (times.size() >= kEnough || maps >= kMostMaps) return false;
+      return allowance.left() || (times.size() < kFewest && maps < kFewestMaps);
+    };
+    for (int maps = 0; wanted(maps); ++maps) measure(maker, requestOf(maps, kSamples), map.view(), times);
     return times;
   }
 };

@@ -1,4 +1,4 @@
-// Never asks whether its slice is over before it has worked for 0.3 ms, in large maps.
+// Never asks whether its slice is over before it has worked for too long, in large maps.
 #include <chrono>
 
 #include "teren/ProcessorTime.h"
@@ -7,12 +7,15 @@
 
 namespace {
 
+/// Under a sanitizer slices may be longer.
+constexpr std::chrono::microseconds kWork(teren::kSanitizerWord == 0 ? 300 : 1500);
+
 class Task final : public teren::SlicedTask {
  public:
   explicit Task(std::unique_ptr<teren::SlicedTask> task) : task_(std::move(task)) {}
   bool step(const teren::Slice& slice) override {
     const auto start = teren::threadProcessorTime();
-    while (teren::threadProcessorTime() - start < std::chrono::microseconds(300)) {
+    while (teren::threadProcessorTime() - start < kWork) {
     }
     return task_->step(slice);
   }
