@@ -40,7 +40,7 @@ class CheckCommand final : public Command {
                 "put a plugin's module to the contract of plugins, each property in a process of its own"),
         file_(application().add_option("FILE", "the module, teren-<id>.so")->required()),
         property_(application().add_option("--property", "this property alone")->type_name("NAME")),
-        quick_(addFlag("--quick", "fewer seeds: seconds instead of a minute")),
+        quick_(addFlag("--quick", "fewer seeds, and less time for settings that make it slow")),
         limit_(application()
                    .add_option("--limit",
                                "processor time for a property in seconds, and ten times as much to wait [60]")
