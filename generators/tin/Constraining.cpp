@@ -1,14 +1,29 @@
 // Constrained edges: the way from a to b is traced, crossings with older constraints become vertices, and
 // what else it crosses is flipped away (Sloan 1993).
+#include <algorithm>
 #include <cassert>
+#include <cstdlib>
 
 #include "generators/tin/Triangulation.h"
 
 namespace teren {
 
+/// True where a vertex w, |turn| beside the way from a to b, is within half a step of it, measured along an
+/// axis, and both ways to w are shorter.
+bool Triangulation::isNearWay(LatticePoint a, LatticePoint b, LatticePoint w, std::int64_t turn) noexcept {
+  const auto square = [](LatticePoint p, LatticePoint q) {
+    const std::int64_t x = p.x - q.x, y = p.y - q.y;
+    return x * x + y * y;
+  };
+  const std::int64_t whole = square(a, b);
+  return 2 * std::abs(turn) <= std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)) && square(a, w) < whole &&
+         square(w, b) < whole;
+}
+
 /// Follows the way from a to b up to the first vertex on it, where it ends, or the first constrained edge
-/// across it, which becomes `barrier`. The edges it crosses go to crossed_, each as (right, left).
-Triangulation::Way Triangulation::trace(VertexId a, VertexId b) {
+/// across it, which becomes `barrier`, or, if it bends, the first vertex near it, a detour. The edges it
+/// crosses go to crossed_, each as (right, left).
+Triangulation::Way Triangulation::trace(VertexId a, VertexId b, bool bends) {
   const LatticePoint from = point(a);
   const LatticePoint to = point(b);
   crossed_.clear();
@@ -28,7 +43,13 @@ Triangulation::Way Triangulation::trace(VertexId a, VertexId b) {
       way.end = left;
     }
   });
-  while (way.end == kNoVertex) {
+  if (bends && way.end == kNoVertex) {
+    for (const int i : {following(side.side()), preceding(side.side())}) {
+      const VertexId w = corners(side.triangle())[i];
+      if (isNearWay(from, to, point(w), orientation(from, to, point(w)))) way.detour = w;
+    }
+  }
+  while (way.end == kNoVertex && way.detour == kNoVertex) {
     const Link over = mesh_.across(side);
     const std::array<VertexId, 3>& here = corners(side.triangle());
     crossed_.push_back({here[following(side.side())], here[preceding(side.side())]});
@@ -38,7 +59,11 @@ Triangulation::Way Triangulation::trace(VertexId a, VertexId b) {
     }
     const VertexId w = mesh_.corner(over);
     const std::int64_t turn = orientation(from, to, point(w));
-    if (turn == 0) way.end = w;
+    if (turn == 0) {
+      way.end = w;
+    } else if (bends && isNearWay(from, to, point(w), turn)) {
+      way.detour = w;
+    }
     side = Link(over.triangle(), turn > 0 ? following(over.side()) : preceding(over.side()));
   }
   return way;
@@ -81,15 +106,16 @@ void Triangulation::forceEdge(VertexId a, VertexId b, std::uint32_t id) {
 /// The way from a to b crosses a constrained edge: their crossing becomes a vertex, and four pieces go to the
 /// list of those to be forced, or two where the crossing is an end already.
 /// Why this comes to an end: the lattice point nearest to a point X of a segment is no farther from X than
-/// the segment's ends, so each piece is shorter than what it replaces.
+/// the segment's ends, so each piece is shorter than what it replaces. Why it does so soon: pieces bend to
+/// vertices within half a step (as in snap rounding), so that bundles of almost equal constraints become one.
 bool Triangulation::cross(const Piece& piece, Link barrier) {
   const VertexId c = corners(barrier.triangle())[following(barrier.side())];
   const VertexId d = corners(barrier.triangle())[preceding(barrier.side())];
   const LatticePoint p = roundedCrossing(point(piece.a), point(piece.b), point(c), point(d));
   if (p == point(c) || p == point(d)) {
     const VertexId end = p == point(c) ? c : d;
-    pieces_.push_back({end, piece.b, piece.id});
-    pieces_.push_back({piece.a, end, piece.id});
+    pieces_.push_back({end, piece.b, piece.id, true});
+    pieces_.push_back({piece.a, end, piece.id, true});
     return false;
   }
   const std::uint32_t id = table_.id(c, d);
@@ -97,28 +123,53 @@ bool Triangulation::cross(const Piece& piece, Link barrier) {
   unconstrain(c, d);
   const Insertion crossing = insert(p, height, triangleAt(c));
   const VertexId x = crossing.vertex;
-  pieces_.push_back({x, piece.b, piece.id});
-  pieces_.push_back({piece.a, x, piece.id});
-  pieces_.push_back({c, x, id});
-  pieces_.push_back({x, d, id});
+  pieces_.push_back({x, piece.b, piece.id, true});
+  pieces_.push_back({piece.a, x, piece.id, true});
+  pieces_.push_back({c, x, id, true});
+  pieces_.push_back({x, d, id, true});
+  bendTo(x);
   return crossing.isNew;
+}
+
+/// Constrained edges that pass a new crossing within half a step go through it from now on.
+void Triangulation::bendTo(VertexId x) {
+  made_.clear();
+  forEachCorner(x, [&](Link at) {
+    if (!mesh_.across(at).isBarrier()) return;
+    const VertexId e = corners(at.triangle())[following(at.side())];
+    const VertexId f = corners(at.triangle())[preceding(at.side())];
+    const std::int64_t turn = orientation(point(e), point(f), point(x));
+    if (table_.contains(e, f) && isNearWay(point(e), point(f), point(x), turn)) made_.push_back({e, f});
+  });
+  const std::vector<Edge> edges = made_;
+  for (const Edge& edge : edges) {
+    const std::uint32_t id = table_.id(edge.a, edge.b);
+    unconstrain(edge.a, edge.b);
+    pieces_.push_back({edge.a, x, id, true});
+    pieces_.push_back({x, edge.b, id, true});
+  }
 }
 
 int Triangulation::constrain(VertexId a, VertexId b, std::uint32_t id) {
   assert(isVertex(a) && isVertex(b));
   int added = 0;
-  pieces_.assign(1, {a, b, id});
+  pieces_.assign(1, {a, b, id, false});
   while (!pieces_.empty()) {
     const Piece piece = pieces_.back();
     pieces_.pop_back();
     if (piece.a == piece.b) continue;
-    const Way way = trace(piece.a, piece.b);
+    const Way way = trace(piece.a, piece.b, piece.bends);
+    if (way.detour != kNoVertex) {
+      pieces_.push_back({way.detour, piece.b, piece.id, true});
+      pieces_.push_back({piece.a, way.detour, piece.id, true});
+      continue;
+    }
     if (way.end == kNoVertex) {
       if (cross(piece, way.barrier)) ++added;
       continue;
     }
     forceEdge(piece.a, way.end, piece.id);
-    pieces_.push_back({way.end, piece.b, piece.id});
+    pieces_.push_back({way.end, piece.b, piece.id, piece.bends});
   }
   return added;
 }

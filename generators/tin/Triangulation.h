@@ -160,8 +160,8 @@ class Triangulation {
   /// Makes the way from a to b consist of constrained edges, and gives them the id; an edge that is
   /// constrained already gets the new one. Vertices on the way divide it. Where it crosses a constrained
   /// edge, the crossing is rounded to the lattice and becomes a vertex of both, on the surface (at the height
-  /// found there before), and the four pieces are inserted instead, which may find new crossings. Returns how
-  /// many vertices crossings added. O(edges crossed), expected.
+  /// found there before), and the four pieces are inserted instead, which bend to vertices within half a step
+  /// and may cross others. Returns how many vertices crossings added. O(edges crossed), expected.
   int constrain(VertexId a, VertexId b, std::uint32_t id);
   /// Makes a constrained edge an ordinary one, which may then be flipped away. False where the two vertices
   /// do not share a constrained edge.
@@ -208,10 +208,12 @@ class Triangulation {
     VertexId a = kNoVertex;
     VertexId b = kNoVertex;
     std::uint32_t id = 0;
+    bool bends = false;  // came of a crossing, and is rounded anyway
   };
-  /// How far a way leads: to a vertex, or, where there is none, to one side of a barrier.
+  /// How far a way leads: to a vertex on it, or to one near it, or else to one side of a barrier.
   struct Way {
     VertexId end = kNoVertex;
+    VertexId detour = kNoVertex;
     Link barrier;
   };
 
@@ -257,10 +259,12 @@ class Triangulation {
   void setConstrained(Link side, std::uint32_t id);
 
   // Constraining.cpp
-  Way trace(VertexId a, VertexId b);
+  static bool isNearWay(LatticePoint a, LatticePoint b, LatticePoint w, std::int64_t turn) noexcept;
+  Way trace(VertexId a, VertexId b, bool bends);
   void flipAway(VertexId a, VertexId b);
   void forceEdge(VertexId a, VertexId b, std::uint32_t id);
   bool cross(const Piece& piece, Link barrier);
+  void bendTo(VertexId x);
 
   // Validation.cpp
   Result<void> validateTriangle(TriangleId t) const;

@@ -260,6 +260,22 @@ TEST(Triangulation, CrossingConstraintsMeetInAVertexOnTheOlderSurface) {
   EXPECT_EQ(mesh.constraint(crossing, d), 2U);
 }
 
+TEST(Triangulation, ABundleOfAlmostEqualConstraintsMeetsInFewVertices) {
+  RandomSequence random(18);
+  constexpr std::int32_t kSide = 1 << 24;
+  Triangulation mesh(LatticeFrame{.width = kSide, .height = kSide});
+  int added = 0;
+  for (std::uint32_t n = 0; n < 40; ++n) {
+    const auto some = [&random] { return static_cast<std::int32_t>(random.next() % 8); };
+    const VertexId a = mesh.insert({1000 + some(), kSide / 3 + some()}, 0.0).vertex;
+    const VertexId b = mesh.insert({kSide - 1000 - some(), kSide / 2 + some()}, 0.0).vertex;
+    added += mesh.constrain(a, b, n);
+  }
+  EXPECT_TRUE(valid(mesh));
+  EXPECT_LT(added, 40 * 40);
+  EXPECT_GT(added, 10);
+}
+
 TEST(Triangulation, AVertexOnAConstraintDividesItIntoTwoOfItsKind) {
   Triangulation mesh(kSmall);
   const VertexId a = mesh.insert({10, 30}, 0.0).vertex, b = mesh.insert({90, 30}, 8.0).vertex;
