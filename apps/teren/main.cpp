@@ -63,7 +63,7 @@ int main(int argumentCount, char** arguments) {
   for (const auto& command : commands) {
     if (command->chosen()) return finish(application, run(application, *command));
   }
-  return teren::fail(
-      application, teren::kWrongInput,
-      "a command is missing: plugins, describe, bake, query, flight, new-plugin, check or sand (see teren --help)");
+  return teren::fail(application, teren::kWrongInput,
+                     "a command is missing: plugins, describe, bake, query, flight, new-plugin, check or "
+                     "sand (see teren --help)");
 }
