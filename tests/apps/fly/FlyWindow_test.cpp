@@ -2,7 +2,6 @@
 #include "apps/fly/FlyWindow.h"
 
 #include <chrono>
-#include <cstdlib>
 #include <memory>
 
 #include <QApplication>
@@ -10,9 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "teren/PluginRegistry.h"
-
-#include "apps/window/WindowProgram.h"
-#include "tests/support/PrivateDisplay.h"
 
 namespace teren {
 namespace {
@@ -101,17 +97,3 @@ TEST_F(FlyWindowKeys, OfTheProgramDoNotReachTheAircraft) {
 
 }  // namespace
 }  // namespace teren
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  const teren::PrivateDisplay display;
-  setenv("DISPLAY", display.name().c_str(), 1);
-  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-  unsetenv("WAYLAND_DISPLAY");
-  int failed = 1;
-  const teren::Result<void> ran = teren::runWithWindows("test-fly-window", argv, [&failed] {
-    failed = RUN_ALL_TESTS();
-    return teren::Result<void>();
-  });
-  return ran ? failed : 1;
-}

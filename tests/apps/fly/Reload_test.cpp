@@ -18,10 +18,8 @@
 #include "apps/fly/FlyWindow.h"
 #include "apps/fly/LandSource.h"
 #include "apps/options/CommandLine.h"
-#include "apps/window/WindowProgram.h"
 #include "tests/engine/plugin/ScratchFolder.h"
 #include "tests/support/KeyPress.h"
-#include "tests/support/PrivateDisplay.h"
 #include "tests/support/WindowedRun.h"
 
 namespace teren {
@@ -194,17 +192,3 @@ TEST(FlyProgram, TurnsWaterIntoSnowWhenF5ComesAfterTheModuleHasChanged) {
 
 }  // namespace
 }  // namespace teren
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  const teren::PrivateDisplay display;
-  setenv("DISPLAY", display.name().c_str(), 1);
-  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-  unsetenv("WAYLAND_DISPLAY");
-  int failed = 1;
-  const teren::Result<void> ran = teren::runWithWindows("test-fly-reload", argv, [&failed] {
-    failed = RUN_ALL_TESTS();
-    return teren::Result<void>();
-  });
-  return ran ? failed : 1;
-}

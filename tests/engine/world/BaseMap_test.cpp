@@ -15,6 +15,7 @@
 
 #include "tests/engine/world/HashNoise.h"
 #include "tests/engine/world/TestLayer.h"
+#include "tests/engine/world/ToldTask.h"
 
 namespace teren {
 namespace {
@@ -24,16 +25,6 @@ bool sameBits(const HeightMap& a, const HeightMap& b) {
       a.samples().begin(), a.samples().end(), b.samples().begin(), b.samples().end(),
       [](float x, float y) { return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y); });
 }
-
-/// A task whose step is any function.
-class Does final : public SlicedTask {
- public:
-  explicit Does(std::function<bool()> step) : step_(std::move(step)) {}
-  bool step(const Slice&) override { return step_(); }
-
- private:
-  std::function<bool()> step_;
-};
 
 using Begin = std::function<std::unique_ptr<SlicedTask>(const MapRequest&, HeightView)>;
 
@@ -67,7 +58,7 @@ class HostileFilter final : public Filter {
 /// Fills the map with 15 m and then writes `height` at one sample.
 Begin writes(float height) {
   return [height](const MapRequest&, HeightView out) {
-    return std::make_unique<Does>([=] {
+    return std::make_unique<ToldTask>([=] {
       for (int y = 0; y < out.rows(); ++y) std::fill_n(out.row(y), out.columns(), 15.0F);
       out(out.columns() - 1, out.rows() - 1) = height;
       return true;
@@ -76,7 +67,7 @@ Begin writes(float height) {
 }
 
 Begin stepDoes(std::function<bool()> step) {
-  return [step](const MapRequest&, HeightView) { return std::make_unique<Does>(step); };
+  return [step](const MapRequest&, HeightView) { return std::make_unique<ToldTask>(step); };
 }
 
 struct Hostile {
@@ -95,7 +86,7 @@ std::vector<Hostile> hostilePlugins() {
       {"step throws after half the work",
        [](const MapRequest&, HeightView out) {
          out(0, 0) = std::numeric_limits<float>::quiet_NaN();
-         return std::make_unique<Does>([steps = 0]() mutable -> bool {
+         return std::make_unique<ToldTask>([steps = 0]() mutable -> bool {
            if (++steps == 3) throw std::logic_error("tired");
            return false;
          });
@@ -183,7 +174,7 @@ TEST(BaseMap, GivesUpATaskAfterTheStepsThatAMapOfItsSizeMayTake) {
 TEST(BaseMap, CountsTheStepsOfEachOfItsPluginsByItself) {
   const auto lasts = [](std::int64_t most) {
     return [most](const MapRequest& request, HeightView map) {
-      return std::make_unique<Does>([=, steps = std::int64_t{0}]() mutable {
+      return std::make_unique<ToldTask>([=, steps = std::int64_t{0}]() mutable {
         for (int y = 0; y < map.rows(); ++y) std::fill_n(map.row(y), map.columns(), 15.0F);
         return ++steps == stepLimit(request.samples, request.samples) + most;
       });
@@ -223,7 +214,7 @@ TEST(BaseMap, OfAGoodPluginStaysGoodBesideMapsThatFail) {
 TEST(BaseMap, RunsItsFiltersInTheirOrderOnTheGeneratorsMap) {
   const auto changes = [](std::function<float(float)> change) {
     return std::make_shared<HostileFilter>([change](const MapRequest&, HeightView inOut) {
-      return std::make_unique<Does>([=] {
+      return std::make_unique<ToldTask>([=] {
         for (int y = 0; y < inOut.rows(); ++y) {
           std::transform(inOut.row(y), inOut.row(y) + inOut.columns(), inOut.row(y), change);
         }

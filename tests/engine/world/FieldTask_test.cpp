@@ -17,6 +17,7 @@
 
 #include "tests/engine/world/RandomDraws.h"
 #include "tests/engine/world/TestLayer.h"
+#include "tests/engine/world/ToldTask.h"
 #include "tests/engine/world/ValueNoise.h"
 #include "tests/support/SlicedWork.h"
 
@@ -24,16 +25,6 @@ namespace teren {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-/// A task whose step is any function.
-class Does final : public SlicedTask {
- public:
-  explicit Does(std::function<bool()> step) : step_(std::move(step)) {}
-  bool step(const Slice&) override { return step_(); }
-
- private:
-  std::function<bool()> step_;
-};
 
 using Begin = std::function<std::unique_ptr<SlicedTask>(const FieldRequest&, HeightView)>;
 
@@ -110,7 +101,7 @@ TEST(FieldTask, KeepsHeightsAtTheVeryEndsOfTheRange) {
 TEST(FieldTask, TakesNothingThatHappenedToLieThereForASample) {
   const Outcome outcome = outcomeOf(
       [](const FieldRequest&, HeightView out) {
-        return std::make_unique<Does>([out] { return out(0, 0) = 15.0F, true; });
+        return std::make_unique<ToldTask>([out] { return out(0, 0) = 15.0F, true; });
       },
       3, 2);
   EXPECT_EQ(outcome.heights(0, 0), 15.0F);
@@ -122,7 +113,7 @@ TEST(FieldTask, IsTheMeanAllOverWhereThePluginThrowsBeginsNothingOrIsNeverDone) 
   const auto stepDoes = [](std::function<bool()> step) -> Begin {
     return [step](const FieldRequest&, HeightView out) {
       std::fill_n(out.row(0), out.columns(), 15.0F);
-      return std::make_unique<Does>(step);
+      return std::make_unique<ToldTask>(step);
     };
   };
   const std::pair<Begin, const char*> cases[] = {
@@ -145,14 +136,14 @@ TEST(FieldTask, IsTheMeanAllOverWhereThePluginThrowsBeginsNothingOrIsNeverDone) 
 TEST(FieldTask, GivesUpAfterTheStepsThatARectangleOfItsSizeMayTake) {
   std::int64_t steps = 0;
   outcomeOf([&steps](const FieldRequest&,
-                     HeightView) { return std::make_unique<Does>([&steps] { return ++steps, false; }); },
+                     HeightView) { return std::make_unique<ToldTask>([&steps] { return ++steps, false; }); },
             65, 3);
   EXPECT_EQ(steps, stepLimit(65, 3));
 }
 
 TEST(FieldTask, NamesAPluginThatOverrunsItsSliceAndKeepsItsHeights) {
   const auto slow = [](const FieldRequest&, HeightView out) {
-    return std::make_unique<Does>([out] {
+    return std::make_unique<ToldTask>([out] {
       const auto start = threadProcessorTime();
       while (threadProcessorTime() - start < std::chrono::milliseconds(30)) {
       }
