@@ -9,16 +9,16 @@ namespace teren {
 LandSource::LandSource(const WorldOptions& world, const FlyCommandLine& fly)
     : world_(world),
       fly_(fly),
-      registry_(PluginRegistry::load(PluginRegistry::searchPath(), ModuleLoading::copied)) {}
+      registry_(PluginRegistry::load(PluginRegistry::searchPath(), ModuleLoading::copied)),
+      latest_(registry_) {}
 
 Result<NewLand> LandSource::make() {
-  std::shared_ptr<const PluginRegistry> registry = registry_;
   if (pitch_ > 0.0) {
-    Result<std::shared_ptr<const PluginRegistry>> reloaded = registry_->reloaded();
+    Result<std::shared_ptr<const PluginRegistry>> reloaded = latest_->reloaded();
     if (!reloaded) return reloaded.error();
-    registry = std::move(*reloaded);
+    latest_ = std::move(*reloaded);
   }
-  const Result<std::shared_ptr<const World>> world = world_.create(*registry);
+  const Result<std::shared_ptr<const World>> world = world_.create(*latest_);
   if (!world) return world.error();
   const double pitch = (*world)->pitch();
   if (pitch_ > 0.0 && pitch != pitch_) {
@@ -29,8 +29,8 @@ Result<NewLand> LandSource::make() {
   if (!options) return options.error();
   Result<std::unique_ptr<Engine>> engine = Engine::create(*world, options->engine);
   if (!engine) return engine.error();
-  NewLand land{std::move(*engine), *options, registry->changedSince(*registry_)};
-  registry_ = std::move(registry);
+  NewLand land{std::move(*engine), *options, latest_->changedSince(*registry_)};
+  registry_ = latest_;
   pitch_ = pitch;
   return land;
 }

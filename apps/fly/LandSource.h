@@ -36,8 +36,9 @@ class LandSource {
  private:
   const WorldOptions& world_;
   const FlyCommandLine& fly_;
-  std::shared_ptr<const PluginRegistry> registry_;
-  double pitch_ = 0.0;  // [m] 0: no land was made yet
+  std::shared_ptr<const PluginRegistry> registry_;  // of the land that was made last
+  std::shared_ptr<const PluginRegistry> latest_;    // loaded last: a try that was refused loads nothing twice
+  double pitch_ = 0.0;                              // [m] 0: no land was made yet
 };
 
 }  // namespace teren

@@ -1,6 +1,7 @@
 // teren check FILE.so [--property NAME] [--quick] [--limit S] [--json]: puts a module to the contract of
 // plugins, each property in a process of its own.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
@@ -30,7 +31,8 @@ using check::Property;
 constexpr const char* kLoading = "loading";
 constexpr const char* kLoadingDemand =
     "The engine takes the module: it is built for this one and describes itself well.";
-constexpr double kUsualLimit = 60.0;  // [s]
+constexpr std::array<const char*, 3> kFacts = {"id", "kind", "version"};  // of the module, told with it
+constexpr double kUsualLimit = 60.0;                                      // [s]
 constexpr std::size_t kNameColumn = 14;
 
 class CheckCommand final : public Command {
@@ -78,6 +80,7 @@ class CheckCommand final : public Command {
       if (!seconds) return seconds.error().message;
       seconds_ = *seconds;
     }
+    if (answer_->count() > 0 && property_->count() == 0) return "--answer needs --property";
     const std::string name = argument(*property_);
     if (property_->count() == 0 || name == kLoading || check::findProperty(name) != nullptr)
       return std::nullopt;
@@ -141,12 +144,18 @@ class CheckCommand final : public Command {
       return !interruption_->came();
     });
     OrderedJson answer = {{"name", name}, {"demand", demandOf(name)}};
-    OrderedJson read = said ? OrderedJson::parse(*said, nullptr, false) : OrderedJson();
-    if (!read.is_object() || !read.contains("holds") || !read.contains("text")) {
-      read = {{"holds", false},
-              {"text", said ? "its process ended without an answer" : said.error().message}};
+    const OrderedJson read = said ? OrderedJson::parse(*said, nullptr, false) : OrderedJson();
+    if (!read.is_object() || !read.value("holds", OrderedJson()).is_boolean() ||
+        !read.value("text", OrderedJson()).is_string()) {
+      answer["holds"] = false;
+      answer["text"] = said ? "its process ended without an answer" : said.error().message;
+      return answer;
     }
-    answer.update(read);
+    answer["holds"] = read["holds"];
+    answer["text"] = read["text"];
+    for (const char* key : kFacts) {
+      if (read.value(key, OrderedJson()).is_string()) answer[key] = read[key];
+    }
     return answer;
   }
 
@@ -159,8 +168,7 @@ class CheckCommand final : public Command {
     const std::string name = answer["name"];
     const bool holds = answer["holds"];
     if (name == kLoading) {
-      for (const char* key : {"id", "kind", "version"})
-        report_[key] = answer.contains(key) ? answer[key] : nullptr;
+      for (const char* key : kFacts) report_[key] = answer.contains(key) ? answer[key] : nullptr;
     }
     report_["properties"].push_back(
         {{"name", name}, {"demand", answer["demand"]}, {"holds", holds}, {"text", answer["text"]}});

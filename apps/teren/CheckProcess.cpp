@@ -21,10 +21,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kWaiting = 10.0;  // how much longer than it may work a process may take
 constexpr int kPollMilliseconds = 20;
+constexpr std::size_t kMostSaid = std::size_t{1}
+                                  << 20;  // [bytes] what goes beyond is dropped, and so no answer
 
 /// Becomes the program; called between fork and exec.
 [[noreturn]] void become(std::vector<char*>& arguments, int pipe) {
-  setpgid(0, 0);                     // to be killed with all its children
+  setpgid(0, 0);                     // to be killed with its children
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // and not to outlive who asked
   fcntl(pipe, F_SETFD, 0);
   const int nothing = open("/dev/null", O_RDONLY);
@@ -108,7 +110,7 @@ class CheckProcess {
     std::array<char, 4096> bytes{};
     for (ssize_t count = 1; count > 0;) {
       count = ::read(pipe_, bytes.data(), bytes.size());
-      if (count > 0) said_.append(bytes.data(), static_cast<std::size_t>(count));
+      if (count > 0 && said_.size() < kMostSaid) said_.append(bytes.data(), static_cast<std::size_t>(count));
       if (count == 0) closed_ = true;
     }
   }

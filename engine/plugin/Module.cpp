@@ -4,7 +4,6 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -23,6 +22,7 @@ constexpr std::string_view kPrefix = "teren-";
 constexpr std::string_view kSuffix = ".so";
 constexpr std::size_t kSentenceBytes = 400;  // of a plugin's own words
 constexpr std::uint64_t kMostAbiWords = 256;
+constexpr std::uintmax_t kMostModuleBytes = std::uintmax_t{1} << 30;
 
 std::string_view wordName(const AbiWord& word) {
   return word.name == nullptr ? std::string_view() : std::string_view(word.name, strnlen(word.name, 1000));
@@ -34,14 +34,17 @@ const AbiWord* findWord(std::span<const AbiWord> words, std::string_view name) {
   return found == words.end() ? nullptr : &*found;
 }
 
-/// All of a file; empty where it cannot be read.
-std::optional<std::string> bytesOf(const std::filesystem::path& file) {
+/// All of a module's file.
+Result<std::string> bytesOf(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) return std::nullopt;
+  if (error) return Error{"it cannot be read"};
+  if (size > kMostModuleBytes) {
+    return Error{"it has " + std::to_string(size) + " bytes, expected at most 2^30"};
+  }
   std::string bytes(size, '\0');
   std::ifstream stream(file, std::ios::binary);
-  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) return std::nullopt;
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) return Error{"it cannot be read"};
   return bytes;
 }
 
@@ -159,8 +162,8 @@ Result<std::shared_ptr<const Module>> openModule(const std::filesystem::path& fi
     return Error{"a module's file name must be teren-<id>.so, the id in lower-case letters, digits and '-'"};
   }
   if (Result<void> object = checkSharedObject(file); !object) return object.error();
-  std::optional<std::string> bytes = bytesOf(file);
-  if (!bytes) return Error{"it cannot be read"};
+  Result<std::string> bytes = bytesOf(file);
+  if (!bytes) return bytes.error();
   const std::uint64_t contents = hashText(*bytes);
   if (before && before->contents == contents) return before;
   const bool mixing = makeUniqueSymbolsWeak(*bytes);

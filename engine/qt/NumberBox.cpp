@@ -18,10 +18,8 @@ double leadingPlace(double number) {
 
 NumberBox::NumberBox(const Parameter& parameter, QWidget* parent)
     : QDoubleSpinBox(parent), integer_(parameter.type == ParameterType::integer) {
-  // A hundredth of the range's leading place, for numbers near zero, whose own place would lead nowhere.
   const double width = parameter.max - parameter.min;
-  smallestStep_ = width > 0.0 ? leadingPlace(width) / 100.0 : 1.0;
-  if (integer_) smallestStep_ = 1.0;
+  stepFromZero_ = !integer_ && width > 0.0 ? leadingPlace(width) / 100.0 : 1.0;
   setDecimals(integer_ ? 0 : DBL_MAX_10_EXP + DBL_DIG);  // Qt rounds every value to them
   setRange(parameter.min, parameter.max);
   setValue(parameter.defaultNumber);
@@ -55,9 +53,8 @@ QValidator::State NumberBox::validate(QString& text, int& /*position*/) const {
 }
 
 void NumberBox::stepBy(int steps) {
-  const double own = value() == 0.0 ? 0.0 : leadingPlace(std::fabs(value())) / 10.0;
-  const double step =
-      integer_ ? std::max(1.0, std::floor(own)) : (own > 0.0 ? std::min(own, smallestStep_) : smallestStep_);
+  const double own = value() == 0.0 ? stepFromZero_ : leadingPlace(std::fabs(value())) / 10.0;
+  const double step = integer_ ? std::max(1.0, std::floor(own)) : own;
   // Rounded to 12 digits, so that three tenths are 0.3 and not the sum of three doubles.
   setValue(QString::number((std::round(value() / step) + steps) * step, 'g', 12).toDouble());
 }

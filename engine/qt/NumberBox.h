@@ -1,4 +1,4 @@
-// A spin box for the numbers of parameter tables: any double inside a range, exactly as it is.
+// A spin box for the numbers of parameter tables: any normal double inside a range, exactly as it is.
 #pragma once
 
 #include <QDoubleSpinBox>
@@ -11,7 +11,7 @@ namespace teren {
 /// Shows a number as the shortest decimal text that reads back as the same double, in any locale with a
 /// point, and takes what teren::parseNumber takes. What is typed counts when it is finished; what is no
 /// number or out of range goes back to the number before. A step is a tenth of the number's leading decimal
-/// place.
+/// place; from zero, a hundredth of the range's. Subnormal numbers become zero.
 class NumberBox : public QDoubleSpinBox {
   Q_OBJECT
 
@@ -29,7 +29,7 @@ class NumberBox : public QDoubleSpinBox {
   QString bare(const QString& text) const;
 
   bool integer_;
-  double smallestStep_;
+  double stepFromZero_;
 };
 
 }  // namespace teren

@@ -113,22 +113,22 @@ ParameterPanel::Private::Row ParameterPanel::Private::choiceRow(const Parameter&
 ParameterPanel::Private::Row ParameterPanel::Private::textRow(const Parameter& parameter) {
   auto* line = new QLineEdit(&panel_);
   line->setMaxLength(static_cast<int>(parameter.max));  // bytes are at least as many: the table decides below
-  auto good = std::make_shared<QString>();
+  auto good = std::make_shared<std::string>();          // its bytes, which need not be UTF-8
   QObject::connect(line, &QLineEdit::editingFinished, &panel_, [this, line, good, &parameter] {
-    if (line->text() == *good) return;
+    if (line->text() == QString::fromStdString(*good)) return;
     const Values::Entry typed{std::string(parameter.name), line->text().toStdString()};
     if (const Result<Values> checked = Values::check(table_, std::span(&typed, 1), id_); !checked) {
-      line->setText(*good);
+      line->setText(QString::fromStdString(*good));
       Q_EMIT panel_.refused(QString::fromStdString(checked.error().message));
       return;
     }
-    *good = line->text();
+    *good = std::get<std::string>(typed.second);
     Q_EMIT panel_.valuesChanged();
   });
-  return {&parameter, line, [good] { return ParameterValue(good->toStdString()); },
+  return {&parameter, line, [good] { return ParameterValue(*good); },
           [line, good](const ParameterValue& value) {
-            *good = QString::fromStdString(std::get<std::string>(value));
-            line->setText(*good);
+            *good = std::get<std::string>(value);
+            line->setText(QString::fromStdString(*good));
           }};
 }
 

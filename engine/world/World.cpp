@@ -80,6 +80,9 @@ Result<HeightRange> promisedRange(const Promise& promise, const std::string& plu
   return range;
 }
 
+/// Fields are asked for places down to 2^-20 pitches (FieldRequest::spacing), and for no finer ones.
+constexpr int kMostFieldBits = 20;
+
 /// Notes the field of a generator that is continuous, and how far triangles through its samples may lie from
 /// it.
 Result<void> takeField(LayerPlugins& plugins, double spacing, const std::string& plugin) {
@@ -144,6 +147,11 @@ Result<Layer> makeLayer(const LayerDescription& description, const WorldDescript
     const double spacing = world.pitch / static_cast<double>(1 << worldBits);
     const Result<void> taken = takeField(plugins, spacing, where + inQuotes(description.generator));
     if (!taken) return taken.error();
+    if (plugins.field != nullptr && worldBits + *shift > kMostFieldBits) {
+      return Error{where + "pitch is " + numberText(description.pitch) +
+                   " m, expected at most 2^20 samples of " + numberText(spacing) + " m, because " +
+                   inQuotes(description.generator) + " is a continuous field"};
+    }
   }
   return Layer(description.name, world.seed, world.pitch, worldBits, *shift, *bits - 1, description.blend,
                description.preserveVariance, std::move(plugins), *range, messages);

@@ -108,7 +108,7 @@ std::string named(const char* variant, const char* path, int side) {
 /// Names with a side are what tests/bench/table reads.
 void registerAll() {
   const auto add = [](const std::string& name, auto... arguments) {
-    benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMicrosecond)->MinTime(0.02);
+    benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMicrosecond);
   };
   for (const Variant& variant : variants()) {
     for (const Path& path : kPaths) {

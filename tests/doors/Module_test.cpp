@@ -36,8 +36,13 @@ TEST(BrokenModule, CutShortOrForeignIsNamedWithTheReason) {
   folder.write("teren-text.so", "#!/bin/sh\necho no module\n");
   folder.write("teren-empty.so", "");
   std::filesystem::create_directory(folder / "teren-folder.so");
+  folder.write("teren-huge.so", whole);
+  std::filesystem::resize_file(folder / "teren-huge.so",
+                               std::uintmax_t{1} << 40);  // takes no room on the disk
   Program::Settings settings;
   settings.plugins = folder.path();
+  expectRefused(bakeWith("huge"), 2,
+                {"teren-huge.so was refused", "1099511627776 bytes, expected at most 2^30"}, settings);
   expectRefused(bakeWith("cut"), 2, {"teren-cut.so was refused", "cut short"}, settings);
   expectRefused(bakeWith("text"), 2, {"teren-text.so was refused", "no ELF file"}, settings);
   expectRefused(bakeWith("empty"), 2, {"teren-empty.so was refused", "empty"}, settings);

@@ -137,6 +137,15 @@ TEST_F(ParameterPanelTest, LetsNothingInThatTheTableForbids) {
   EXPECT_NE(refusals_.front().front().toString().toStdString().find("\"matrix\""), std::string::npos);
 }
 
+TEST_F(ParameterPanelTest, KeepsTheBytesOfATextThatIsNoUtf8) {
+  const Values::Entry entry{"matrix", std::string(20, '\xff')};
+  ASSERT_TRUE(panel_.setValues(std::span(&entry, 1)).ok());
+  EXPECT_EQ(std::get<std::string>(value("matrix")), std::string(20, '\xff'));
+  QTest::keyClick(&field<QLineEdit>("matrix"), Qt::Key_Return);
+  EXPECT_EQ(std::get<std::string>(value("matrix")), std::string(20, '\xff')) << "nobody has typed";
+  EXPECT_EQ(changes_.count() + refusals_.count(), 0);
+}
+
 TEST_F(ParameterPanelTest, RefusesBadValuesOfAProgramAndStaysAsItWas) {
   field<QCheckBox>("closed").click();
   const std::vector<Values::Entry> before = panel_.values();

@@ -18,7 +18,7 @@ struct FieldRequest {
   double u = 0.0, v = 0.0;    ///< [pitches] offset of the first sample from it, in [0, 1)
   std::uint64_t seed = 0;     ///< of the layer, the same everywhere
   double pitch = 64.0;        ///< [m] of the layer's lattice
-  double spacing = 2.0;       ///< [m] between samples, the pitch times a power of two
+  double spacing = 2.0;       ///< [m] between samples, the pitch times a power of two, 2^-20 or more
   int columns = 1, rows = 1;  ///< >= 1
   /// 0: the field itself, nothing left out. Above: detail below the Nyquist limit of `spacing` (waves
   /// shorter than two samples) may be left out.

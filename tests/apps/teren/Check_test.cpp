@@ -104,7 +104,8 @@ TEST(Check, RefusesAWrongCommandLine) {
       {{"check", module("sound"), "--property", "beauty"}, "\"beauty\" but must be loading, completion, "},
       {{"check", module("sound"), "--limit", "0"}, "--limit"},
       {{"check", module("sound"), "--limit", "nan"}, "--limit"},
-      {{"check", module("sound"), "--answer", "-1"}, "--answer"},
+      {{"check", module("sound"), "--property", "loading", "--answer", "-1"}, "--answer"},
+      {{"check", module("sound"), "--answer", "3"}, "--answer needs --property"},
       {{"check", module("sound"), module("sound")}, "not expected"},
   };
   for (const auto& [arguments, part] : cases) {

@@ -72,6 +72,19 @@ Position placeIn(const World& world, const BakeRegion& region, int x, int y) {
           (y % n) / static_cast<double>(n)};
 }
 
+// ---- The door ----
+
+TEST(WorldFields, AreRefusedWhereTheirPitchHasMoreSamplesThanFieldsAreAskedFor) {
+  WorldDescription world = worldOf({field(std::ldexp(64.0, 15), 40.0, 128.0)});  // patches of 32 intervals
+  EXPECT_TRUE(World::create(world, testRegistry()).ok());
+  world.layers.front().pitch = std::ldexp(64.0, 16);
+  const Result<std::shared_ptr<const World>> refused = World::create(world, testRegistry());
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("pitch is 4194304 m, expected at most 2^20 samples of 2 m"),
+            std::string::npos)
+      << refused.error().message;
+}
+
 // ---- Law 0: one function ----
 
 TEST(WorldFields, HeightsAreTheBakedSamplesBitForBitHoweverFarAway) {
