@@ -9,6 +9,7 @@ namespace {
 constexpr double kParts = 65535.0;
 /// A removal and what gives its volume back move places by at most so many widths of the band.
 constexpr double kErrorPerBand = 2.5;
+constexpr std::size_t kChangesOfFlip = 4;  // two triangles go and two come
 
 /// How far the two diagonals of the quadrangle a, b, c, d (counter-clockwise, convex) are apart where they
 /// cross [m].
@@ -69,7 +70,14 @@ void CleanUp::dissolveAt(SandSurface& surface, Slides& slides, VertexId v, std::
     const double error =
         kErrorPerBand * fold + std::max({carried(v), carried(to), carried(left), carried(right)});
     if (flips && error > tolerance_) continue;
+    const std::uint32_t was = *id;
     surface.unconstrain(v, to);
+    if (surface.lastChangeCount() != (flips ? kChangesOfFlip : 0)) {  // more than was judged has changed
+      surface.constrain(v, to, was);
+      const std::vector<VertexId> touched(surface.lastTouched().begin(), surface.lastTouched().end());
+      surface.settle(touched);
+      continue;
+    }
     ++count_.dissolved;
     if (!flips) continue;
     count_.largestError = std::max(count_.largestError, error);
@@ -99,6 +107,7 @@ double CleanUp::bandAround(const SandSurface& surface, VertexId v) {
   });
   gradientX /= areas;
   gradientY /= areas;
+  slope_ = std::sqrt(gradientX * gradientX + gradientY * gradientY) / surface.step();
   double lowest = 0.0, highest = 0.0;
   ring_.clear();
   mesh.forEachNeighbour(v, [&](VertexId n) {
@@ -110,8 +119,15 @@ double CleanUp::bandAround(const SandSurface& surface, VertexId v) {
   return highest - lowest;
 }
 
+/// Whether loose material lies at a vertex or at one of ring_.
+bool CleanUp::bearsLoose(const SandSurface& surface, VertexId v) const {
+  const auto bears = [&](VertexId n) { return surface.loose(n) > kBareTicks; };
+  return bears(v) || std::any_of(ring_.begin(), ring_.end(), bears);
+}
+
 void CleanUp::removeIfFlat(SandSurface& surface, Slides& slides, VertexId v) {
   double error = kErrorPerBand * bandAround(surface, v);
+  if (slope_ > slides.repose().start && bearsLoose(surface, v)) return;
   double most = carried(v);
   for (const VertexId n : ring_) most = std::max(most, carried(n));
   error += most;

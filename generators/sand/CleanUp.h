@@ -29,9 +29,13 @@ struct CleanUpCount {
 /// earlier removals, and a vertex stays where that would exceed the tolerance. A vertex that moves by itself
 /// starts anew.
 ///
+/// A vertex stays where loose material lies as steep as it may slide: slides divide long edges there, and
+/// would divide them again for ever.
+///
 /// A constrained edge of an older stamp is dissolved where its two faces satisfy Delaunay's rule anyway, or
-/// where the other diagonal of their quadrangle lies within the tolerance. Which of the material is solid may
-/// shift at a removal, by as much as solid ground is uneven there; the surface's volume is kept exactly.
+/// where the other diagonal of their quadrangle lies within the tolerance, and no other edge flips with it.
+/// Which of the material is solid may shift at a removal, by as much as solid ground is uneven there; the
+/// surface's volume is kept exactly.
 ///
 /// Cost: O(k) a vertex, O(k log k) a removal. Memory: 2 bytes and 1 bit a vertex.
 class CleanUp {
@@ -57,6 +61,7 @@ class CleanUp {
   void dissolveAt(SandSurface& surface, Slides& slides, VertexId v, std::uint32_t kept);
   void removeIfFlat(SandSurface& surface, Slides& slides, VertexId v);
   double bandAround(const SandSurface& surface, VertexId v);
+  bool bearsLoose(const SandSurface& surface, VertexId v) const;
   double carried(VertexId v) const noexcept;
   void carry(VertexId v, double error);
 
@@ -66,6 +71,7 @@ class CleanUp {
   std::vector<VertexId> queue_;
   CompactArray<std::uint16_t> carried_;  // in parts of the tolerance
   std::vector<VertexId> ring_;
+  double slope_ = 0.0;  // of the plane through the vertex that bandAround was asked for
 };
 
 }  // namespace teren

@@ -33,7 +33,10 @@ SandSurface::SandSurface(const LatticeFrame& frame, std::span<const LatticePoint
   mesh_.reserve(mesh_.vertexSlots() + spare);
   loose_.reserve(mesh_.vertexSlots() + spare);
   const std::int64_t thickness = std::max<std::int64_t>(ticksFromMetres(loose), 0);
-  loose_.resize(mesh_.vertexSlots(), thickness);
+  loose_.resize(mesh_.vertexSlots(), kNoLoose);  // points that are one vertex leave slots free
+  for (VertexId v = 0; v < mesh_.vertexSlots(); ++v) {
+    if (mesh_.isVertex(v)) loose_[v] = thickness;
+  }
   for (std::size_t i = points.size(); i-- > 0;) {  // of equal points the first counts
     mesh_.setHeight(vertices[i], metresFromTicks(ticksFromMetres(heights[i])));
   }

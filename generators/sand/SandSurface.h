@@ -81,6 +81,8 @@ class SandSurface {
   /// The corners of the triangles that the last insertion, removal or (un)constraining took or made, that
   /// remain.
   std::span<const VertexId> lastTouched() const noexcept { return touched_; }
+  /// How many triangles that operation took or made; a flip counts four.
+  std::size_t lastChangeCount() const noexcept { return changes_.size(); }
 
   /// Vertices that rose, fell, came or went, and triangles that came, went or lie at such vertices, since
   /// clearChanges().

@@ -168,7 +168,8 @@ int Triangulation::constrain(VertexId a, VertexId b, std::uint32_t id) {
       if (cross(piece, way.barrier)) ++added;
       continue;
     }
-    forceEdge(piece.a, way.end, piece.id);
+    // An older constraint, broken where this one crosses it, takes no edge from a newer one.
+    if (piece.id == id || !table_.contains(piece.a, way.end)) forceEdge(piece.a, way.end, piece.id);
     pieces_.push_back({way.end, piece.b, piece.id, piece.bends});
   }
   return added;

@@ -27,12 +27,19 @@ CleanUpCount cleanAll(SandSurface& surface, double tolerance, int passes = 4) {
 }
 
 TEST(CleanUp, RemovesEveryVertexOfAPlaneHoweverInclined) {
-  SandSurface surface = scatteredSand(2'000, 41, 1.0, [](double x, double y) { return 3.0 * x - 2.0 * y; });
+  SandSurface surface = scatteredSand(2'000, 41, 0.0, [](double x, double y) { return 3.0 * x - 2.0 * y; });
   const SixfoldVolume all = surface.volume();
   const CleanUpCount count = cleanAll(surface, 1e-6);
   EXPECT_LE(surface.mesh().vertexCount(), 8U);
   EXPECT_LE(count.largestError, 1e-6);
   EXPECT_TRUE(surface.volume() + surface.owed() == all);
+}
+
+TEST(CleanUp, KeepsVerticesWhereLooseMaterialMaySlide) {
+  SandSurface surface = scatteredSand(500, 41, 1.0, [](double x, double y) { return 3.0 * x - 2.0 * y; });
+  EXPECT_EQ(cleanAll(surface, 1e-6).removed, 0U) << "steeper than sand lies";
+  SandSurface gentle = scatteredSand(500, 41, 1.0, [](double x, double y) { return 0.3 * x - 0.2 * y; });
+  EXPECT_GT(cleanAll(gentle, 1e-6).removed, 480U);
 }
 
 TEST(CleanUp, MovesNoPlaceByMoreThanItsTolerance) {
@@ -59,6 +66,36 @@ TEST(CleanUp, MovesNoPlaceByMoreThanItsTolerance) {
     const Result<void> sound = surface.validate();
     EXPECT_TRUE(sound) << sound.error().message;
   }
+}
+
+TEST(CleanUp, MovesNoPlaceByMoreThanItSaysWhereConstraintsDissolve) {
+  std::uint64_t dissolved = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    RandomSequence random(seed);
+    SandSurface surface(boxOf(20, 0x1p-20), 0.0, 1.0);
+    std::vector<VertexId> vertices;
+    for (int n = 0; n < 60; ++n) {
+      vertices.push_back(surface.insert(
+          {static_cast<std::int32_t>(random.nextBits(20)), static_cast<std::int32_t>(random.nextBits(20))}));
+      if (n % 4 == 0) surface.raise(vertices.back(), random.nextBits(32));  // up to 16 mm
+    }
+    for (int n = 0; n < 4; ++n) {
+      surface.constrain(vertices[random.next() % vertices.size()], vertices[random.next() % vertices.size()],
+                        1);
+    }
+    surface.settle(vertices);
+    const SandSurface before = surface;
+    const CleanUpCount count = cleanAll(surface, 1e-4, 1);
+    dissolved += count.dissolved;
+    for (int n = 0; n < 2'000; ++n) {
+      const LatticePoint p{static_cast<std::int32_t>(random.nextBits(20)),
+                           static_cast<std::int32_t>(random.nextBits(20))};
+      ASSERT_LE(std::fabs(metresFromTicks(surface.heightAt(p, 0) - before.heightAt(p, 0))),
+                count.largestError + 1e-9)
+          << "seed " << seed;
+    }
+  }
+  EXPECT_GT(dissolved, 60U);
 }
 
 TEST(CleanUp, KeepsRidgesAndPits) {

@@ -125,6 +125,26 @@ TEST(SandSurface, DividesAConstrainedEdgeIntoConstrainedEdges) {
   EXPECT_EQ(surface.divide(a, beside), kNoVertex) << "there is no room between neighbours on the lattice";
 }
 
+TEST(SandSurface, PutsCrossingsOnTheSurfaceInSlotsThatEqualPointsLeftFree) {
+  constexpr std::int32_t kEnd = 1 << 20;
+  const std::vector<LatticePoint> points = {{0, 0},
+                                            {kEnd, 0},
+                                            {kEnd, kEnd},
+                                            {0, kEnd},  // the box has these already
+                                            {100'000, 500'000},
+                                            {900'000, 510'001},
+                                            {500'000, 100'000},
+                                            {510'003, 900'000}};
+  const std::vector<double> heights = {0.0, 0.1, 0.3, 0.7, 0.1234567, 0.31234567, 0.7, 0.2};
+  SandSurface surface(boxOf(20, 0x1p-20), points, heights, 0.25);
+  const auto at = [&](std::size_t n) { return surface.mesh().vertexAt(points[n]); };
+  surface.constrain(at(4), at(5), 1);
+  surface.constrain(at(6), at(7), 2);
+  EXPECT_EQ(surface.mesh().vertexCount(), 9U) << "one crossing";
+  const Result<void> sound = surface.validate();
+  EXPECT_TRUE(sound) << sound.error().message;
+}
+
 TEST(SandSurface, ListsEveryVertexAndTriangleThatChanged) {
   SandSurface surface = scatteredSand(100, 16, 0.1, ripples);
   RandomSequence random(17);

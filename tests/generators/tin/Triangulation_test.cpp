@@ -276,6 +276,20 @@ TEST(Triangulation, ABundleOfAlmostEqualConstraintsMeetsInFewVertices) {
   EXPECT_GT(added, 10);
 }
 
+TEST(Triangulation, APieceOfAnOlderConstraintTakesNoEdgeFromANewerOne) {
+  Triangulation mesh(LatticeFrame{.width = 4096, .height = 4096});
+  const auto at = [&mesh](std::int32_t x, std::int32_t y) { return mesh.insert({x, y}, 0.0).vertex; };
+  const VertexId west = at(100, 100);
+  mesh.constrain(west, at(700, 101), 1);
+  const VertexId square[] = {west, at(300, 100), at(300, 300), at(100, 300)};
+  // The crossing with the second side rounds to the square's corner, and the older one comes along its first.
+  for (std::size_t n = 0; n < 4; ++n) mesh.constrain(square[n], square[(n + 1) % 4], 2);
+  for (std::size_t n = 0; n < 4; ++n) {
+    EXPECT_EQ(mesh.constraint(square[n], square[(n + 1) % 4]), 2U) << "side " << n;
+  }
+  EXPECT_TRUE(valid(mesh));
+}
+
 TEST(Triangulation, AVertexOnAConstraintDividesItIntoTwoOfItsKind) {
   Triangulation mesh(kSmall);
   const VertexId a = mesh.insert({10, 30}, 0.0).vertex, b = mesh.insert({90, 30}, 8.0).vertex;
