@@ -161,7 +161,8 @@ class Triangulation {
   /// constrained already gets the new one. Vertices on the way divide it. Where it crosses a constrained
   /// edge, the crossing is rounded to the lattice and becomes a vertex of both, on the surface (at the height
   /// found there before), and the four pieces are inserted instead, which bend to vertices within half a step
-  /// and may cross others; pieces of the older constraint leave edges of other ids as they are. Returns how many vertices crossings added. O(edges crossed), expected.
+  /// and may cross others; pieces of the older constraint leave edges of other ids as they are. Returns how
+  /// many vertices crossings added. O(edges crossed), expected.
   int constrain(VertexId a, VertexId b, std::uint32_t id);
   /// Makes a constrained edge an ordinary one, which may then be flipped away. False where the two vertices
   /// do not share a constrained edge.
