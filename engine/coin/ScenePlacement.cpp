@@ -25,9 +25,14 @@ SbVec3d ScenePlacement::position(const Sample& sample) const noexcept {
   return {east * spacing_ - remainder_[0], north * spacing_ - remainder_[1], -remainder_[2]};
 }
 
+// An eye beyond the world's width, or at no number, sees nothing: any reference does. Samples lie within
+// 2^61.
+constexpr double kFarthest = 0x1p61;
+
 Sample ScenePlacement::referenceNear(const SbVec3f& point) const noexcept {
   const auto nearest = [this](double metres, double remainder, std::int64_t origin) {
-    const std::int64_t sample = origin + std::llround((metres + remainder) / spacing_);
+    const double away = (metres + remainder) / spacing_;
+    const std::int64_t sample = origin + (std::fabs(away) < kFarthest ? std::llround(away) : 0);
     const std::int64_t shifted = sample + kReferenceStep / 2;
     return shifted - ((shifted % kReferenceStep) + kReferenceStep) % kReferenceStep;
   };

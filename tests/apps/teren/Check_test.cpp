@@ -120,7 +120,8 @@ TEST(Check, OutlivesAModuleThatCrashesAndTellsTheRest) {
   const Answer answer = teren({"check", "--quick", "--json", module("crash")});
   EXPECT_EQ(answer.exitCode, 1);
   EXPECT_EQ(answer.complaint, "here I fall\n") << "what a module says goes to standard error";
-  for (const Json& property : Json::parse(answer.output)["properties"]) {
+  const Json report = Json::parse(answer.output);
+  for (const Json& property : report["properties"]) {
     EXPECT_EQ(property["holds"], property["name"] != "completion") << property;
     if (property["holds"]) continue;
     EXPECT_EQ(property["text"], "its process was ended by signal 9 (Killed)");

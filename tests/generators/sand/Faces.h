@@ -1,6 +1,7 @@
 // Random faces for the tests of sand: ordinary ones, slivers, huge and tiny ones, bare and buried corners.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "teren/Hash.h"
@@ -23,8 +24,8 @@ inline Face randomFace(RandomSequence& random, int edgeBits, int heightBits, int
   }
   for (FaceCorner& corner : face) {
     const int around = static_cast<int>(random.nextBits(4));
-    corner.weight =
-        2 * area + random.nextBits(1 + 2 * edgeBits - 8 * (around & 1)) % (area * (1 + around) + 1);
+    corner.weight = 2 * area + random.nextBits(std::max(1, 1 + 2 * edgeBits - 8 * (around & 1))) %
+                                   (area * (1 + around) + 1);
     corner.height = random.nextBits(heightBits);
     corner.loose = kBareTicks + 1 + random.nextBits(heightBits);
     if (bareOneIn > 0 && random.next() % static_cast<std::uint64_t>(bareOneIn) == 0) {
