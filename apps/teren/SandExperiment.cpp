@@ -7,16 +7,15 @@
 #include <cstdio>
 #include <vector>
 
-#include "teren/Hash.h"
 #include "teren/ProcessorTime.h"
 
 #include "apps/teren/SandGrid.h"
+#include "generators/sand/LevelSand.h"
 #include "generators/sand/Sandbox.h"
 
 namespace teren {
 namespace {
 
-constexpr int kSideBits = 24;
 constexpr double kSandDepth = 1.0;  // [m]
 
 /// [s] of the thread's processor time.
@@ -29,20 +28,6 @@ double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
                    values.end());
   return values[values.size() / 2];
-}
-
-SandSurface levelSand(int vertices) {
-  LatticeFrame frame;
-  frame.step = std::ldexp(1.0, -kSideBits);
-  frame.width = frame.height = std::int32_t{1} << kSideBits;
-  RandomSequence random(static_cast<std::uint64_t>(vertices));
-  std::vector<LatticePoint> points(static_cast<std::size_t>(vertices) - 4);
-  for (LatticePoint& p : points) {
-    p = {static_cast<std::int32_t>(random.nextBits(kSideBits)),
-         static_cast<std::int32_t>(random.nextBits(kSideBits))};
-  }
-  const std::vector<double> heights(points.size(), 0.0);
-  return SandSurface(frame, points, heights, kSandDepth, points.size() / 64 + 1024);
 }
 
 std::vector<StampPlace> wayOf(const SandExperiment& experiment) {
@@ -59,7 +44,8 @@ Result<void> runMesh(const SandExperiment& experiment, const ToolShape& tool, Sa
                      const std::function<bool()>& interrupted) {
   SandSettings settings;
   settings.dryAngle = experiment.repose;
-  Sandbox sandbox(levelSand(experiment.vertices), settings);
+  const auto spare = static_cast<std::size_t>(experiment.vertices - 4) / 64 + 1024;
+  Sandbox sandbox(levelSand(experiment.vertices, kSandDepth, spare), settings);
   const SixfoldVolume all = sandbox.surface().volume();
   std::vector<double> times;
   for (const StampPlace& place : wayOf(experiment)) {

@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <vector>
 
 #include "teren/Hash.h"
 
 #include "generators/numbers/RandomNumber.h"
 #include "generators/tin/GridApproximation.h"
+#include "tests/bench/Timing.h"
 
 namespace teren {
 namespace {
@@ -54,12 +54,6 @@ HeightMap terrain() {
   return map;
 }
 
-double now() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 int measure(int rounds) {
   const HeightMap map = terrain();
   const LatticeFrame frame{.step = 1.0, .width = kSide - 1, .height = kSide - 1};
@@ -69,9 +63,9 @@ int measure(int rounds) {
     std::size_t triangles = 0;
     double worst = 0.0;
     for (int round = 0; round < rounds; ++round) {
-      const double start = now();
+      const double start = processorSeconds();
       const Result<Triangulation> mesh = approximateGrid(map.view(), frame, error);
-      seconds.push_back(now() - start);
+      seconds.push_back(processorSeconds() - start);
       triangles = mesh->triangleCount();
       worst = worstErrorAtSamples(*mesh, map.view());
     }

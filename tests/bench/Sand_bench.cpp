@@ -9,50 +9,23 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <memory>
 #include <vector>
 
-#include "teren/Hash.h"
-
+#include "generators/sand/LevelSand.h"
 #include "generators/sand/Sandbox.h"
+#include "tests/bench/Timing.h"
 
 namespace teren {
 namespace {
 
-constexpr int kSideBits = 24;
 constexpr std::uint64_t kSteps = 20'000;
-
-double seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-SandSurface scattered(int count) {
-  LatticeFrame frame;
-  frame.step = std::ldexp(1.0, -kSideBits);
-  frame.width = frame.height = std::int32_t{1} << kSideBits;
-  RandomSequence random(static_cast<std::uint64_t>(count));
-  std::vector<LatticePoint> points(static_cast<std::size_t>(count) - 4);
-  for (LatticePoint& p : points) {
-    p = {static_cast<std::int32_t>(random.nextBits(kSideBits)),
-         static_cast<std::int32_t>(random.nextBits(kSideBits))};
-  }
-  return SandSurface(frame, points, std::vector<double>(points.size(), 0.0), 1.0, points.size() / 64);
-}
 
 /// What iterations cost [s], and how many vertices and triangles changed.
 struct Samples {
   std::vector<double> all, stamp, slide, clean, changed;
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
 double highest(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
@@ -63,7 +36,7 @@ class Drag {
       : count_(count),
         spacing_(1.0 / std::sqrt(count)),
         tool_(*ToolShape::disc(6.0 * spacing_, 3.0 * spacing_)),
-        sandbox_(scattered(count), settings(spacing_)),
+        sandbox_(levelSand(count, 1.0, static_cast<std::size_t>(count - 4) / 64), settings(spacing_)),
         start_(static_cast<double>(sandbox_.surface().mesh().vertexCount())),
         bytesAtStart_(static_cast<double>(sandbox_.bytes())) {}
 
@@ -71,17 +44,17 @@ class Drag {
     const double x = 0.5 + 0.25 * std::cos(angle_), y = 0.5 + 0.25 * std::sin(angle_);
     const StampPlace place{x, y, 0.0, -std::sin(angle_), std::cos(angle_)};
     angle_ += 2.0 * spacing_ / 0.25;
-    const double begin = seconds();
+    const double begin = processorSeconds();
     (void)*sandbox_.stamp(tool_, place);
-    const double stamped = seconds();
+    const double stamped = processorSeconds();
     sandbox_.slide(kSteps);
-    const double slid = seconds();
+    const double slid = processorSeconds();
     sandbox_.clean();
-    const double cleaned = seconds();
+    const double cleaned = processorSeconds();
     samples_.changed.push_back(static_cast<double>(sandbox_.changedVertices().ids().size() +
                                                    sandbox_.changedTriangles().ids().size()));
     sandbox_.forgetChanges();
-    samples_.all.push_back(seconds() - begin);
+    samples_.all.push_back(processorSeconds() - begin);
     samples_.stamp.push_back(stamped - begin);
     samples_.slide.push_back(slid - stamped);
     samples_.clean.push_back(cleaned - slid);

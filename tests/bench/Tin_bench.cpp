@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -22,6 +21,7 @@
 #include "teren/Hash.h"
 
 #include "generators/tin/Triangulation.h"
+#include "tests/bench/Timing.h"
 
 namespace teren {
 namespace {
@@ -108,9 +108,7 @@ class Own {
 
 /// [ns] of this thread's own work: what others do meanwhile must not count.
 double now() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
+  return 1e9 * processorSeconds();
 }
 
 /// The same points, discs and orders for both, drawn once a size.
@@ -252,11 +250,6 @@ std::size_t runAll(const Workload& work, Times& times, double& bytesPerVertex) {
   for (const std::size_t i : work.half) mesh.remove(vertices[i]);
   times["random remove"].push_back((now() - start) / static_cast<double>(work.half.size()));
   return mesh.count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 /// The ratio this project aims at, own time / rival's; 0: none.
