@@ -11,10 +11,8 @@
 namespace teren::check {
 namespace {
 
-constexpr int kFewest = 50;  // seeds, however slow the plugin is
 /// While it is open whether the tolerance is kept, up to so many times the seeds are tried.
 constexpr int kPatience = 16;
-constexpr double kTolerance = 0.03;
 /// In standard errors: more than so many beyond the tolerance is no chance, so many inside it is enough.
 constexpr double kNoChance = 4.0, kEnough = 2.0;
 
@@ -35,7 +33,7 @@ class Deviation final : public Property {
       const MapMaker maker = subject.maker(setting);
       Ensemble ensemble(maker);
       const Allowance allowance(effort.forEnsemble(setting.empty()));
-      for (int n = 0; n < kPatience * effort.seeds && (n < kFewest || allowance.left()); ++n) {
+      for (int n = 0; n < kPatience * effort.seeds && (n < Ensemble::kFewestSeeds || allowance.left()); ++n) {
         ensemble.add();
         if (ensemble.seeds() % effort.seeds == 0 && verdict(maker, ensemble) != Verdict::open) break;
       }
@@ -54,7 +52,7 @@ class Deviation final : public Property {
     const Estimate deviation = ensemble.deviation();
     const double above = deviation.value - promised.deviation;
     const double off =
-        (maker.filters() ? above : std::fabs(above)) - kTolerance * promised.deviation - rounding;
+        (maker.filters() ? above : std::fabs(above)) - Ensemble::kTolerance * promised.deviation - rounding;
     if (off > kNoChance * deviation.error) return Verdict::broken;
     return off <= -kEnough * deviation.error ? Verdict::kept : Verdict::open;
   }

@@ -18,6 +18,8 @@ struct Estimate {
 class Ensemble {
  public:
   static constexpr int kSamples = 17;
+  static constexpr int kFewestSeeds = 50;     ///< however slow the plugin is
+  static constexpr double kTolerance = 0.03;  ///< in parts of the promised deviation
 
   explicit Ensemble(const MapMaker& maker) : maker_(maker), range_(maker.range()) {}
 

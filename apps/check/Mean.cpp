@@ -11,8 +11,6 @@
 namespace teren::check {
 namespace {
 
-constexpr int kFewest = 50;  // seeds, however slow the plugin is
-constexpr double kTolerance = 0.03;
 /// In standard errors. Some ten thousand means are looked at: one beyond so many is found by chance in one of
 /// a hundred checks.
 constexpr double kChance = 5.0;
@@ -32,7 +30,8 @@ class Mean final : public Property {
       const MapMaker maker = subject.maker(setting);
       Ensemble ensemble(maker);
       const Allowance allowance(effort.forEnsemble(setting.empty()));
-      for (int n = 0; n < effort.seeds && (n < kFewest || allowance.left()); ++n) ensemble.add();
+      for (int n = 0; n < effort.seeds && (n < Ensemble::kFewestSeeds || allowance.left()); ++n)
+        ensemble.add();
       compare(maker, ensemble);
       if (figure.empty()) figure = text(ensemble, ensemble.mean());
     }
@@ -49,7 +48,7 @@ class Mean final : public Property {
     const HeightRange& promised = ensemble.promised();
     const double rounding = 1e-6 * std::max(std::fabs(promised.min), std::fabs(promised.max));
     const auto check = [&](const Estimate& offset, const std::string& where) {
-      const double most = kTolerance * promised.deviation + kChance * offset.error + rounding;
+      const double most = Ensemble::kTolerance * promised.deviation + kChance * offset.error + rounding;
       if (std::fabs(offset.value) <= most) return;
       throw Counterexample{"with " + maker.setting() + ": the mean " + where + " is " +
                            text(ensemble, offset)};
