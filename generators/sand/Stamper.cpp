@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "teren/ProcessorTime.h"
+
 namespace teren {
 namespace {
 
@@ -85,6 +87,7 @@ LatticePoint Stamper::onLattice(const SandSurface& surface, const ToolPoint& p,
 Result<StampReport> Stamper::stamp(SandSurface& surface, const ToolShape& tool, const StampPlace& place) {
   if (const Result<void> fine = check(surface, tool, place); !fine) return fine.error();
   StampReport report;
+  charged_ = threadProcessorTime();
   allRims_.clear();
   allInside_.clear();
   if (!surface.mesh().isVertex(near_)) near_ = 0;
@@ -93,7 +96,15 @@ Result<StampReport> Stamper::stamp(SandSurface& surface, const ToolShape& tool, 
   const double step = surface.step();
   report.displaced = asDouble(surface.owed() - before) * kMetresPerTick * step * step / 6.0;
   heapUp(surface, tool, place);
+  charge(report.times.berm);
   return report;
+}
+
+/// The processor time since the last charge belongs to this part.
+void Stamper::charge(double& part) noexcept {
+  const std::chrono::nanoseconds now = threadProcessorTime();
+  part += std::chrono::duration<double>(now - charged_).count();
+  charged_ = now;
 }
 
 void Stamper::press(SandSurface& surface, const ToolPart& part, const StampPlace& place,
@@ -106,20 +117,22 @@ void Stamper::press(SandSurface& surface, const ToolPart& part, const StampPlace
     outline_.push_back(a);
     fit(surface, a, onLattice(surface, part.outer[(i + 1) % part.outer.size()], place), kMostHalvings);
   }
-  enforce(surface, ids.outer);
+  enforce(surface, ids.outer, report.times);
   const LatticePoint inside = onLattice(surface, part.inner.front().front(), place);
   flood(surface, inside, ids);
   dissolveInside(surface, ids);
+  charge(report.times.constraints);
   forced_.clear();
   for (const ToolOutline& inner : part.inner) {
     outline_.clear();
     for (const ToolPoint& p : inner) outline_.push_back(onLattice(surface, p, place));
-    enforce(surface, ids.inner);
+    enforce(surface, ids.inner, report.times);
     for (const VertexId v : chain_) forced_.add(v);
   }
   flood(surface, inside, ids);
   report.contour += static_cast<int>(rim_.ids().size() + forced_.ids().size());
   dig(surface, part, place, report);
+  charge(report.times.removal);
 }
 
 /// Appends the points that divide the way from a to b until the ground between two of them is straight.
@@ -144,16 +157,18 @@ void Stamper::fit(SandSurface& surface, LatticePoint a, LatticePoint b, int halv
 }
 
 /// Makes outline_ vertices (in chain_) and a closed chain of constrained edges.
-void Stamper::enforce(SandSurface& surface, std::uint32_t id) {
+void Stamper::enforce(SandSurface& surface, std::uint32_t id, StampTimes& times) {
   chain_.clear();
   for (const LatticePoint p : outline_) {
     near_ = surface.insert(p, surface.mesh().triangleAt(near_));
     chain_.push_back(near_);
   }
+  charge(times.insertion);
   if (chain_.size() < 3) return;
   for (std::size_t i = 0; i < chain_.size(); ++i) {
     surface.constrain(chain_[i], chain_[(i + 1) % chain_.size()], id);
   }
+  charge(times.constraints);
 }
 
 /// Finds the triangles within the outer outline and their vertices, which of these lie on it, and which on an

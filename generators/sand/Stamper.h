@@ -1,6 +1,7 @@
 // Pressing a tool into sand: outlines become constrained edges, what was there goes, and is heaped up beside.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -29,11 +30,20 @@ struct StampSettings {
   double bermWidth = 0.6;   // of the tool's reach: how far around it material is heaped up
 };
 
+/// What the parts of a stamp cost [s of the thread's processor time]. Nothing that is computed depends on it.
+struct StampTimes {
+  double insertion = 0.0;    // locating and inserting the vertices of outlines
+  double constraints = 0.0;  // enforcing outlines, dissolving older ones inside
+  double removal = 0.0;      // finding what lies inside, lowering and removing it
+  double berm = 0.0;
+};
+
 /// What one stamp did.
 struct StampReport {
   int contour = 0;         // vertices on its outlines
   int removed = 0;         // vertices inside that had become redundant
   double displaced = 0.0;  // [m^3] taken from under the tool, and heaped up
+  StampTimes times;
 };
 
 /// Follows the published method (thesis of Pilsen 2009): the outer outline is divided until it fits the
@@ -72,16 +82,18 @@ class Stamper {
   LatticePoint onLattice(const SandSurface& surface, const ToolPoint& p, const StampPlace& place) const;
   void press(SandSurface& surface, const ToolPart& part, const StampPlace& place, StampReport& report);
   void fit(SandSurface& surface, LatticePoint a, LatticePoint b, int halvings);
-  void enforce(SandSurface& surface, std::uint32_t id);
+  void enforce(SandSurface& surface, std::uint32_t id, StampTimes& times);
   void flood(const SandSurface& surface, LatticePoint inside, const Ids& ids);
   void dissolveInside(SandSurface& surface, const Ids& ids);
   void dig(SandSurface& surface, const ToolPart& part, const StampPlace& place, StampReport& report);
   void heapUp(SandSurface& surface, const ToolShape& tool, const StampPlace& place);
+  void charge(double& part) noexcept;
   void collectBerm(const SandSurface& surface, const ToolShape& tool, const StampPlace& place);
 
   StampSettings settings_;
   std::uint32_t nextId_ = 1;
-  VertexId near_ = 0;  // where the last insertion was
+  VertexId near_ = 0;                   // where the last insertion was
+  std::chrono::nanoseconds charged_{};  // all processor time until then belongs to a part
 
   std::vector<LatticePoint> outline_;
   std::vector<VertexId> chain_;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "teren/ProcessorTime.h"
+
 #include "tests/generators/sand/Heaps.h"
 
 namespace teren {
@@ -137,6 +139,30 @@ TEST(Stamper, DissolvesTheConstraintsOfOlderStampsUnderIt) {
   const std::size_t small = surface.mesh().constraintCount();
   ASSERT_TRUE(stamper.stamp(surface, kRound, {0.5, 0.5, 0.0}));
   EXPECT_EQ(surface.mesh().constraintCount(), small) << "the outlines of the second alone";
+}
+
+TEST(Stamper, SaysWhatEachPartOfAStampCost) {
+  SandSurface surface = scatteredSand(5'000, 41, 5.0, hills);
+  Stamper stamper({});
+  StampTimes sum;
+  const std::chrono::nanoseconds begin = threadProcessorTime();
+  for (int n = 0; n < 200; ++n) {
+    const Result<StampReport> report = stamper.stamp(surface, kRound, {0.2 + 0.003 * n, 0.5, 0.0});
+    ASSERT_TRUE(report);
+    for (const double part :
+         {report->times.insertion, report->times.constraints, report->times.removal, report->times.berm}) {
+      ASSERT_GE(part, 0.0) << n;
+    }
+    sum.insertion += report->times.insertion;
+    sum.constraints += report->times.constraints;
+    sum.removal += report->times.removal;
+    sum.berm += report->times.berm;
+  }
+  const double all = std::chrono::duration<double>(threadProcessorTime() - begin).count();
+  for (const double part : {sum.insertion, sum.constraints, sum.removal, sum.berm}) EXPECT_GT(part, 0.0);
+  const double parts = sum.insertion + sum.constraints + sum.removal + sum.berm;
+  EXPECT_LE(parts, all);
+  EXPECT_GT(parts, 0.5 * all) << "nearly all that a stamp does belongs to a part";
 }
 
 TEST(Stamper, DividesItsOutlineWhereTheGroundBends) {
