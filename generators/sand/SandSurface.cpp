@@ -116,7 +116,7 @@ void SandSurface::finish(const Gone& gone) {
         static_cast<WideInteger>(orientation(place(a), place(b), place(c))) * (high(a) + high(b) + high(c));
     change += one.created ? volume : -volume;
   }
-  ledger_.enter(change);
+  ledger_.enterDue(change);
 }
 
 /// Vertices that the triangulation made where constraints cross lie on the surface, but not on a whole tick,
@@ -210,7 +210,7 @@ void SandSurface::raise(VertexId v, std::int64_t ticks) {
   const SixfoldVolume volume = static_cast<WideInteger>(weight(v)) * rise;
   setHeight(v, before + rise);
   loose_[v] = std::max<std::int64_t>(loose_[v] + rise, 0);
-  ledger_.enter(volume);
+  ledger_.enterDue(volume);
   if (rise > 0) moved_ += volume;
   noteMoved(v);
 }
@@ -233,7 +233,7 @@ void SandSurface::apply(TriangleId t, const Face& face, const FaceMove& move) {
 }
 
 void SandSurface::settle(std::span<const VertexId> vertices) {
-  if (vertices.empty() || owed() == 0) return;
+  if (vertices.empty() || (due() == 0 && owed() == 0)) return;
   WideInteger weights = 0;
   std::int64_t most = 0;
   VertexId heaviest = vertices.front();
@@ -245,11 +245,12 @@ void SandSurface::settle(std::span<const VertexId> vertices) {
       heaviest = v;
     }
   }
-  const std::int64_t all = dividedNearest(owed(), weights);
+  const std::int64_t all = dividedNearest(due(), weights);
   if (all != 0) {
     for (const VertexId v : vertices) raise(v, all);
   }
-  raise(heaviest, dividedNearest(owed(), most));
+  raise(heaviest, ledger_.payment(most));
+  ledger_.settled();
 }
 
 void SandSurface::clearChanges() noexcept {

@@ -53,6 +53,8 @@ class SandSurface {
   SixfoldVolume volume() const noexcept;
   const VolumeLedger& ledger() const noexcept { return ledger_; }
   SixfoldVolume owed() const noexcept { return ledger_.owed(); }
+  /// Of that, what operations other than slides changed since the last settle() [ticks steps^2, sixfold].
+  SixfoldVolume due() const noexcept { return ledger_.due(); }
   /// All the volume that slides, stamps and settling have raised, sixfold [ticks steps^2]: what drift is
   /// measured against.
   SixfoldVolume volumeMoved() const noexcept { return moved_; }
@@ -75,8 +77,10 @@ class SandSurface {
   /// A slide: no corner may fall by more than its loose thickness.
   void apply(TriangleId t, const Face& face, const FaceMove& move);
 
-  /// Pays what is owed: all these vertices, different ones, rise by as many whole ticks as come nearest, the
-  /// heaviest by what is left; so |owed| ends at half its weight at most. Nothing without vertices.
+  /// Pays what is due: all these vertices, different ones, rise by as many whole ticks as come nearest, the
+  /// heaviest by what is left, and by a tick more where that lessens what is owed beside. So |owed| ends at
+  /// half the heaviest's weight or at the old debt, whichever is more, however large that debt; only where a
+  /// height comes to its limit more remains. Nothing without vertices.
   void settle(std::span<const VertexId> vertices);
   /// The corners of the triangles that the last insertion, removal or (un)constraining took or made, that
   /// remain.

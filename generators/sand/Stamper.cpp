@@ -278,7 +278,7 @@ void Stamper::collectBerm(const SandSurface& surface, const ToolShape& tool, con
   }
 }
 
-/// Pays what is owed with a berm.
+/// Pays what is due with a berm.
 void Stamper::heapUp(SandSurface& surface, const ToolShape& tool, const StampPlace& place) {
   collectBerm(surface, tool, place);
   double weights = 0.0;
@@ -297,7 +297,7 @@ void Stamper::heapUp(SandSurface& surface, const ToolShape& tool, const StampPla
     surface.settle(allRims_.ids());
     return;
   }
-  const double rise = asDouble(surface.owed()) / weights;
+  const double rise = asDouble(surface.due()) / weights;
   for (std::size_t n = 0; n < share_.size(); ++n) {
     const double ticks = std::floor(rise * share_[n] + 0.5);
     if (ticks != 0.0) surface.raise(around_.ids()[n], static_cast<std::int64_t>(ticks));

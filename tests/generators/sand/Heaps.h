@@ -33,6 +33,18 @@ SandSurface scatteredSand(int count, std::uint64_t seed, double loose, Height he
   return SandSurface(frame, points, heights, loose);
 }
 
+/// Raises a corner of the box by a slide that balances nothing: all of it becomes an old debt.
+inline void runUpADebt(SandSurface& surface, std::int64_t ticks) {
+  const TriangleId t = surface.mesh().triangleAt(0);
+  Face face = surface.unweighedFace(t);
+  FaceMove move{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    face[i].weight = surface.weight(surface.mesh().corners(t)[i]);
+    if (surface.mesh().corners(t)[i] == 0) move[i] = ticks;
+  }
+  surface.apply(t, face, move);
+}
+
 /// A cone twice as steep as dry sand lies, half a metre wide.
 inline double cone(double x, double y) {
   const double distance = std::sqrt((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5));

@@ -1,6 +1,8 @@
 #include "generators/sand/SandSurface.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -64,27 +66,54 @@ TEST(SandSurface, AccountsForEveryChangeOfItsVolumeExactly) {
   EXPECT_TRUE(sound) << sound.error().message;
 }
 
-TEST(SandSurface, PaysWhatItOwesToHalfTheHeaviestWeight) {
+SixfoldVolume sizeOf(SixfoldVolume owed) {
+  return owed < 0 ? -owed : owed;
+}
+
+TEST(SandSurface, PaysWhatAnOperationChangedToHalfTheHeaviestWeight) {
   SandSurface surface = scatteredSand(300, 13, 0.1, ripples);
   RandomSequence random(14);
   const SixfoldVolume all = surface.volume();
+  SixfoldVolume most = 0;  // half of it is what may be owed
   for (int n = 0; n < 1'000; ++n) {
     const VertexId v = surface.insert(
         {static_cast<std::int32_t>(random.nextBits(20)), static_cast<std::int32_t>(random.nextBits(20))});
     surface.settle({&v, 1});
-    const SixfoldVolume owed = surface.owed() < 0 ? -surface.owed() : surface.owed();
-    ASSERT_TRUE(2 * owed <= surface.weight(v)) << n;
+    most = std::max<SixfoldVolume>(most, surface.weight(v));
+    ASSERT_TRUE(2 * sizeOf(surface.owed()) <= most) << n;
+    ASSERT_TRUE(surface.due() == 0) << n;
   }
   for (VertexId v = 4; v < surface.mesh().vertexSlots(); v += 2) {
     if (!surface.remove(v)) continue;
     const std::vector<VertexId> ring(surface.lastTouched().begin(), surface.lastTouched().end());
     surface.settle(ring);
-    std::int64_t most = 0;
-    for (const VertexId w : ring) most = std::max(most, surface.weight(w));
-    const SixfoldVolume owed = surface.owed() < 0 ? -surface.owed() : surface.owed();
-    ASSERT_TRUE(2 * owed <= most) << v;
+    for (const VertexId w : ring) most = std::max<SixfoldVolume>(most, surface.weight(w));
+    ASSERT_TRUE(2 * sizeOf(surface.owed()) <= most) << v;
   }
   EXPECT_TRUE(surface.volume() + surface.owed() == all);
+}
+
+TEST(SandSurface, PaysAnOldDebtATickAtATime) {
+  for (const std::int64_t debt : {-5'000'000, 5'000'000}) {
+    SandSurface surface(boxOf(28, 0x1p-28), 0.0, 1.0);
+    constexpr std::int32_t kAt = 90'000'000, kSide = 64;
+    for (const LatticePoint p : {LatticePoint{0, 0}, {kSide, 0}, {kSide, kSide}, {0, kSide}}) {
+      surface.insert({kAt + p.x, kAt + p.y});
+    }
+    const SixfoldVolume all = surface.volume();
+    runUpADebt(surface, debt);
+    EXPECT_TRUE(surface.due() == 0);
+    const SixfoldVolume owed = sizeOf(surface.owed());
+    RandomSequence random(18);
+    for (int n = 0; n < 100; ++n) {
+      const VertexId v = surface.insert({kAt + 24 + static_cast<std::int32_t>(random.nextBits(4)),
+                                         kAt + 24 + static_cast<std::int32_t>(random.nextBits(4))});
+      surface.settle({&v, 1});
+      ASSERT_LE(std::abs(surface.height(v)), n + 2) << "a tick each at most, and rounding";
+      ASSERT_TRUE(sizeOf(surface.owed()) <= owed) << n;
+    }
+    EXPECT_TRUE(surface.volume() + surface.owed() == all);
+  }
 }
 
 TEST(SandSurface, LeavesLevelGroundAloneWhateverIsInserted) {

@@ -1,6 +1,7 @@
 #include "generators/sand/Stamper.h"
 
 #include <cmath>
+#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,22 @@ TEST(Stamper, HeapsUpAheadMoreThanBesideAndNothingBehind) {
   EXPECT_GT(ahead, beside);
   EXPECT_GT(beside, 0.0);
   EXPECT_EQ(behind, 0.0);
+}
+
+TEST(Stamper, HeapsUpWhatItDisplacedAndNoOldDebt) {
+  SandSurface clean = scatteredSand(3'000, 42, 5.0, hills);
+  SandSurface indebted = clean;
+  runUpADebt(indebted, ticksFromMetres(100.0));
+  Stamper one({}), other({});
+  for (const double x : {0.4, 0.47, 0.6}) {
+    ASSERT_TRUE(one.stamp(clean, kRound, {x, 0.5, 0.0}));
+    ASSERT_TRUE(other.stamp(indebted, kRound, {x, 0.5, 0.0}));
+  }
+  for (VertexId v = 4; v < clean.mesh().vertexSlots(); ++v) {
+    ASSERT_EQ(clean.mesh().isVertex(v), indebted.mesh().isVertex(v)) << v;
+    if (!clean.mesh().isVertex(v)) continue;
+    ASSERT_LE(std::abs(clean.height(v) - indebted.height(v)), 5) << v;
+  }
 }
 
 TEST(Stamper, DigsAndNeverFills) {
