@@ -12,9 +12,9 @@ std::int64_t clamped(std::int64_t ticks) noexcept {
   return std::clamp(ticks, -kHighestTick, kHighestTick);
 }
 
-/// The whole number nearest to number / divisor, halves upwards; divisor > 0.
-std::int64_t dividedNearest(WideInteger number, WideInteger divisor) noexcept {
-  return static_cast<std::int64_t>(dividedDown(2 * number + divisor, 2 * divisor));
+/// The number of ticks nearest to number / divisor, halves upwards; divisor > 0.
+std::int64_t ticksNearest(WideInteger number, WideInteger divisor) noexcept {
+  return asTicks(dividedDown(2 * number + divisor, 2 * divisor));
 }
 
 }  // namespace
@@ -205,7 +205,7 @@ void SandSurface::noteMoved(VertexId v) {
 
 void SandSurface::raise(VertexId v, std::int64_t ticks) {
   const std::int64_t before = height(v);
-  const std::int64_t rise = clamped(before + ticks) - before;
+  const std::int64_t rise = clamped(before + asTicks(ticks)) - before;
   if (rise == 0) return;
   const SixfoldVolume volume = static_cast<WideInteger>(weight(v)) * rise;
   setHeight(v, before + rise);
@@ -245,7 +245,7 @@ void SandSurface::settle(std::span<const VertexId> vertices) {
       heaviest = v;
     }
   }
-  const std::int64_t all = dividedNearest(due(), weights);
+  const std::int64_t all = ticksNearest(due(), weights);
   if (all != 0) {
     for (const VertexId v : vertices) raise(v, all);
   }

@@ -70,7 +70,8 @@ class SandSurface {
   void constrain(VertexId a, VertexId b, std::uint32_t id);
   bool unconstrain(VertexId a, VertexId b);
 
-  /// Raises a vertex by some ticks. What comes is loose; what goes is loose as far as that lasts, then solid.
+  /// Raises a vertex by some ticks, up to its limit at most. What comes is loose; what goes is loose as far
+  /// as that lasts, then solid.
   void raise(VertexId v, std::int64_t ticks);
   /// Makes material loose down to this depth [ticks] below the surface.
   void loosen(VertexId v, std::int64_t depth) noexcept;

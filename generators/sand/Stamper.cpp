@@ -297,10 +297,9 @@ void Stamper::heapUp(SandSurface& surface, const ToolShape& tool, const StampPla
     surface.settle(allRims_.ids());
     return;
   }
-  const double rise = asDouble(surface.due()) / weights;
+  const double rise = asDouble(surface.due()) / weights * kMetresPerTick;
   for (std::size_t n = 0; n < share_.size(); ++n) {
-    const double ticks = std::floor(rise * share_[n] + 0.5);
-    if (ticks != 0.0) surface.raise(around_.ids()[n], static_cast<std::int64_t>(ticks));
+    surface.raise(around_.ids()[n], ticksFromMetres(rise * share_[n]));
   }
   surface.settle({&heaviest, 1});
 }

@@ -45,4 +45,11 @@ constexpr WideInteger dividedDown(WideInteger number, WideInteger divisor) noexc
   return quotient * divisor > number ? quotient - 1 : quotient;
 }
 
+/// A number of ticks by which a height is to change. What lies beyond +-2^53 becomes that: no height within
+/// its range can change by more.
+constexpr std::int64_t asTicks(WideInteger number) noexcept {
+  constexpr std::int64_t kMost = 2 * kHighestTick;
+  return number < -kMost ? -kMost : number > kMost ? kMost : static_cast<std::int64_t>(number);
+}
+
 }  // namespace teren

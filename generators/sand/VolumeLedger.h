@@ -44,7 +44,7 @@ class VolumeLedger {
     const WideInteger afterLower = owed - lower * weight;
     const WideInteger afterUpper = afterLower - weight;
     const bool up = (afterUpper < 0 ? -afterUpper : afterUpper) < (afterLower < 0 ? -afterLower : afterLower);
-    return static_cast<std::int64_t>(up ? lower + 1 : lower);
+    return asTicks(up ? lower + 1 : lower);
   }
 
   SixfoldVolume owed_ = 0;

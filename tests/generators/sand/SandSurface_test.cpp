@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -127,6 +128,35 @@ TEST(SandSurface, LeavesLevelGroundAloneWhateverIsInserted) {
     ASSERT_EQ(surface.loose(v), ticksFromMetres(1.0));
   }
   EXPECT_TRUE(surface.owed() == 0);
+}
+
+TEST(SandSurface, KeepsItsAccountWhereHeightsComeToTheirLimits) {
+  constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+  SandSurface surface(boxOf(28, 0x1p-28), 0.0, 1.0);
+  const SixfoldVolume all = surface.volume();
+  surface.raise(2, kEnd);
+  EXPECT_EQ(surface.height(2), kHighestTick);
+  surface.raise(2, 1);
+  EXPECT_EQ(surface.height(2), kHighestTick);
+  surface.raise(0, -kEnd - 1);
+  EXPECT_EQ(surface.height(0), -kHighestTick);
+  surface.raise(0, kEnd);
+  EXPECT_EQ(surface.height(0), kHighestTick);
+
+  std::vector<VertexId> tiny;  // what raised the corners is due, and more than these can pay
+  for (const LatticePoint p : {LatticePoint{0, 0}, {8, 0}, {8, 8}, {0, 8}, {3, 3}, {3, 4}, {4, 4}}) {
+    tiny.push_back(surface.insert({90'000'000 + p.x, 150'000'000 + p.y}));
+  }
+  surface.settle({&tiny[5], 1});
+  EXPECT_EQ(surface.height(tiny[5]), -kHighestTick);
+  EXPECT_TRUE(surface.due() == 0);
+  EXPECT_TRUE(surface.volume() + surface.owed() == all);
+  surface.raise(2, -kEnd);
+  surface.settle({&tiny[5], 1});
+  EXPECT_EQ(surface.height(tiny[5]), kHighestTick);
+  EXPECT_TRUE(surface.volume() + surface.owed() == all);
+  const Result<void> sound = surface.validate();
+  EXPECT_TRUE(sound) << sound.error().message;
 }
 
 TEST(SandSurface, LosesLooseMaterialBeforeSolid) {
