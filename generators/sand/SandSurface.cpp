@@ -92,12 +92,14 @@ void SandSurface::adopt(VertexId v, std::int64_t ticks, std::int64_t loose) {
 void SandSurface::begin() {
   changes_.clear();
   touched_.clear();
-  mesh_.recordChanges(&changes_);
+  fenced_.clear();
+  mesh_.recordChanges(&changes_, &fenced_);
 }
 
 /// Enters what the recorded changes did to the volume, and lists what they touched.
 void SandSurface::finish(const Gone& gone) {
   mesh_.recordChanges(nullptr);
+  for (const TriangleId t : fenced_) changedTriangles_.add(t);
   seen_.clear();
   for (const TriangleChange& change : changes_) {
     changedTriangles_.add(change.triangle);
@@ -261,7 +263,7 @@ void SandSurface::clearChanges() noexcept {
 std::size_t SandSurface::bytes() const noexcept {
   return mesh_.bytes() + loose_.bytes() + changedVertices_.bytes() + changedTriangles_.bytes() +
          seen_.bytes() + changes_.capacity() * sizeof(TriangleChange) +
-         touched_.capacity() * sizeof(VertexId);
+         fenced_.capacity() * sizeof(TriangleId) + touched_.capacity() * sizeof(VertexId);
 }
 
 Result<void> SandSurface::validate() const {

@@ -89,8 +89,8 @@ class SandSurface {
   /// How many triangles that operation took or made; a flip counts four.
   std::size_t lastChangeCount() const noexcept { return changes_.size(); }
 
-  /// Vertices that rose, fell, came or went, and triangles that came, went or lie at such vertices, since
-  /// clearChanges().
+  /// Vertices that rose, fell, came or went, and triangles that came, went, lie at such vertices, or of which
+  /// a side became or ceased to be constrained, since clearChanges(). loosen() is not told.
   const ChangeList& changedVertices() const noexcept { return changedVertices_; }
   const ChangeList& changedTriangles() const noexcept { return changedTriangles_; }
   void clearChanges() noexcept;
@@ -129,6 +129,7 @@ class SandSurface {
 
   // Kept between operations so that they allocate nothing.
   std::vector<TriangleChange> changes_;
+  std::vector<TriangleId> fenced_;
   std::vector<VertexId> touched_;
   ChangeList seen_;
 };

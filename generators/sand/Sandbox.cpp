@@ -36,6 +36,7 @@ Result<StampReport> Sandbox::stamp(const ToolShape& tool, const StampPlace& plac
   for (const VertexId v : stamper_.inside()) cleanUp_.add(v);
   Result<StampReport> report = stamper_.stamp(surface_, tool, place);
   if (report) keptId_ = id;
+  for (const VertexId v : stamper_.inside()) changedVertices_.add(v);  // may have been loosened, rims as well
   collectChanges(Phase::stamping);
   return report;
 }

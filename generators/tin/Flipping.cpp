@@ -56,6 +56,14 @@ void Triangulation::restore() {
   }
 }
 
+/// Records the triangles on both sides of an edge that has become or ceased to be constrained.
+void Triangulation::noteFence(Link side) {
+  if (fenced_ == nullptr) return;
+  fenced_->push_back(side.triangle());
+  const Link over = mesh_.across(side);
+  if (!over.isOutside()) fenced_->push_back(over.triangle());
+}
+
 /// Makes an edge a constrained one, if it is not, and sets its id.
 void Triangulation::setConstrained(Link side, std::uint32_t id) {
   const VertexId a = corners(side.triangle())[following(side.side())];
@@ -64,8 +72,15 @@ void Triangulation::setConstrained(Link side, std::uint32_t id) {
     mesh_.join(side, mesh_.across(side).withBarrier(true));
     mesh_.changeConstraints(a, 1);
     mesh_.changeConstraints(b, 1);
+    noteFence(side);
   }
   table_.set(a, b, id);
+}
+
+bool Triangulation::isConstrained(TriangleId t, int i) const noexcept {
+  const Link over = mesh_.triangle(t).link[i];
+  if (!over.isOutside()) return over.isBarrier();
+  return table_.contains(corners(t)[following(i)], corners(t)[preceding(i)]);
 }
 
 std::optional<std::uint32_t> Triangulation::constraint(VertexId a, VertexId b) const noexcept {
@@ -79,6 +94,7 @@ bool Triangulation::unconstrain(VertexId a, VertexId b) {
   table_.erase(a, b);
   mesh_.changeConstraints(a, -1);
   mesh_.changeConstraints(b, -1);
+  noteFence(side);
   if (mesh_.across(side).isOutside()) return true;
   mesh_.join(side, mesh_.across(side).withBarrier(false));
   suspects_.assign(1, side);

@@ -89,6 +89,8 @@ class Triangulation {
   TriangleId triangleAt(VertexId v) const noexcept { return mesh_.star(v).triangle(); }
   /// Counter-clockwise.
   const std::array<VertexId, 3>& corners(TriangleId t) const noexcept { return mesh_.triangle(t).vertex; }
+  /// Whether the side opposite corner i is a constrained edge.
+  bool isConstrained(TriangleId t, int i) const noexcept;
   /// Across the side opposite corner i; kNoTriangle beyond the border.
   TriangleId neighbour(TriangleId t, int i) const noexcept {
     const Link over = mesh_.triangle(t).link[i];
@@ -175,8 +177,12 @@ class Triangulation {
   /// From now on every operation appends each triangle it takes away and each it makes, in order, to the
   /// list; nullptr: to none. A triangle may come and go within one operation. So the change of any integral
   /// over the surface is the sum over the created minus the sum over the removed, as long as heights are as
-  /// they were during the operation. The caller owns the list, clears it, and keeps it alive.
-  void recordChanges(std::vector<TriangleChange>* changes) noexcept { changes_ = changes; }
+  /// they were during the operation. `fenced` gets each triangle of which a side becomes or ceases to be
+  /// constrained while it stays. The caller owns the lists, clears them, and keeps them alive.
+  void recordChanges(std::vector<TriangleChange>* changes, std::vector<TriangleId>* fenced = {}) noexcept {
+    changes_ = changes;
+    fenced_ = fenced;
+  }
 
   /// Proves every promise: triangles turn left and fill the box, neighbours agree, edges are constrained
   /// Delaunay, vertices, counters and constraints are consistent. The error names the first breach. O(n).
@@ -258,6 +264,7 @@ class Triangulation {
   void flip(Link side);
   void restore();
   void setConstrained(Link side, std::uint32_t id);
+  void noteFence(Link side);
 
   // Constraining.cpp
   static bool isNearWay(LatticePoint a, LatticePoint b, LatticePoint w, std::int64_t turn) noexcept;
@@ -276,6 +283,7 @@ class Triangulation {
   ConstraintTable table_;
   JumpGrid grid_;
   std::vector<TriangleChange>* changes_ = nullptr;
+  std::vector<TriangleId>* fenced_ = nullptr;
 
   // Kept between operations so that they allocate nothing.
   std::vector<Rim> rim_;

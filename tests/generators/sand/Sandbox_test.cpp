@@ -1,7 +1,9 @@
 #include "generators/sand/Sandbox.h"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -61,20 +63,25 @@ TEST(Sandbox, DriftsByLessThanATrillionthOfWhatMovedInAMillionSteps) {
 }
 
 TEST(Sandbox, TellsWhoeverDrawsWhatToLookAt) {
-  Sandbox sandbox(scatteredSand(500, 54, 5.0, level), {});
-  std::vector<std::int64_t> heights;
-  std::vector<std::array<VertexId, 3>> triangles;
+  Sandbox sandbox(scatteredSand(500, 54, 0.01, level), {});
+  using Vertex = std::pair<std::int64_t, std::int64_t>;
+  using Triangle = std::pair<std::array<VertexId, 3>, std::array<bool, 3>>;
+  std::vector<Vertex> heights;      // and loose thickness
+  std::vector<Triangle> triangles;  // and which sides are constrained
+  const SandSurface& surface = sandbox.surface();
   const auto look = [&](VertexId v) {
-    if (v >= heights.size()) heights.resize(v + 1, 0);
-    heights[v] = sandbox.surface().mesh().isVertex(v) ? sandbox.surface().height(v) : 0;
+    if (v >= heights.size()) heights.resize(v + 1);
+    heights[v] = surface.mesh().isVertex(v) ? Vertex{surface.height(v), surface.loose(v)} : Vertex{};
   };
   const auto lookAt = [&](TriangleId t) {
     if (t >= triangles.size()) triangles.resize(t + 1);
     triangles[t] = {};
-    if (sandbox.surface().mesh().isTriangle(t)) triangles[t] = sandbox.surface().mesh().corners(t);
+    if (!surface.mesh().isTriangle(t)) return;
+    triangles[t].first = surface.mesh().corners(t);
+    for (int i = 0; i < 3; ++i) triangles[t].second[i] = surface.mesh().isConstrained(t, i);
   };
-  for (VertexId v = 0; v < sandbox.surface().mesh().vertexSlots(); ++v) look(v);
-  for (TriangleId t = 0; t < sandbox.surface().mesh().triangleSlots(); ++t) lookAt(t);
+  for (VertexId v = 0; v < surface.mesh().vertexSlots(); ++v) look(v);
+  for (TriangleId t = 0; t < surface.mesh().triangleSlots(); ++t) lookAt(t);
   const ToolShape tool = *ToolShape::square(0.06, 0.05);
   for (const StampPlace& place : stampsAlong({0.2, 0.5}, {0.8, 0.5}, 0.03)) {
     ASSERT_TRUE(sandbox.stamp(tool, place));
@@ -82,13 +89,30 @@ TEST(Sandbox, TellsWhoeverDrawsWhatToLookAt) {
     for (const VertexId v : sandbox.changedVertices().ids()) look(v);
     for (const TriangleId t : sandbox.changedTriangles().ids()) lookAt(t);
     sandbox.forgetChanges();
-    const std::vector<std::int64_t> followed = heights;
-    const std::vector<std::array<VertexId, 3>> followedTriangles = triangles;
-    for (VertexId v = 0; v < sandbox.surface().mesh().vertexSlots(); ++v) look(v);
-    for (TriangleId t = 0; t < sandbox.surface().mesh().triangleSlots(); ++t) lookAt(t);
+    const std::vector<Vertex> followed = heights;
+    const std::vector<Triangle> followedTriangles = triangles;
+    for (VertexId v = 0; v < surface.mesh().vertexSlots(); ++v) look(v);
+    for (TriangleId t = 0; t < surface.mesh().triangleSlots(); ++t) lookAt(t);
     ASSERT_EQ(followed, heights);
     ASSERT_EQ(followedTriangles, triangles);
   }
+}
+
+TEST(Sandbox, TellsWhatAToolHasLoosenedWithoutMovingIt) {
+  Sandbox sandbox(scatteredSand(500, 56, 0.0, level), {});
+  const SandSurface& surface = sandbox.surface();
+  const ToolShape tool = *ToolShape::square(0.06, 0.05);
+  ASSERT_TRUE(sandbox.stamp(tool, {0.5, 0.5, 1.0}));  // in the air: an outline and nothing else
+  sandbox.forgetChanges();
+  const VertexId slots = surface.mesh().vertexSlots();
+  ASSERT_TRUE(sandbox.stamp(tool, {0.5, 0.5, 0.0, 1.0, 0.0}));  // heaps nothing up behind
+  int onlyLoosened = 0;
+  for (VertexId v = 0; v < slots; ++v) {
+    if (!surface.mesh().isVertex(v) || surface.loose(v) == 0) continue;
+    EXPECT_TRUE(sandbox.changedVertices().contains(v)) << v;
+    onlyLoosened += surface.height(v) == 0 ? 1 : 0;
+  }
+  EXPECT_GT(onlyLoosened, 0);
 }
 
 TEST(Sandbox, SlidesAgainWhenTheSandDries) {
