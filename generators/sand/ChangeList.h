@@ -27,6 +27,8 @@ class ChangeList {
   std::size_t bytes() const noexcept { return marks_.bytes() + ids_.capacity() * sizeof(std::uint32_t); }
 
  private:
+  friend class SandState;  // archives
+
   MarkSet marks_;
   std::vector<std::uint32_t> ids_;
 };

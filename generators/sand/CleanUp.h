@@ -58,6 +58,8 @@ class CleanUp {
   std::size_t bytes() const noexcept;
 
  private:
+  friend class SandState;  // archives
+
   void dissolveAt(SandSurface& surface, Slides& slides, VertexId v, std::uint32_t kept);
   void removeIfFlat(SandSurface& surface, Slides& slides, VertexId v);
   double bandAround(const SandSurface& surface, VertexId v);

@@ -101,6 +101,8 @@ class SandSurface {
   Result<void> validate() const;
 
  private:
+  friend class SandState;  // archives
+
   /// A vertex as it was before it was removed.
   struct Gone {
     VertexId vertex = kNoVertex;

@@ -5,7 +5,8 @@
 namespace teren {
 
 Sandbox::Sandbox(SandSurface surface, const SandSettings& settings)
-    : surface_(std::move(surface)),
+    : settings_(settings),
+      surface_(std::move(surface)),
       slides_(reposeOf(settings.dryAngle, settings.moisture), settings.longestEdge),
       cleanUp_(settings.flatness),
       stamper_(settings.stamp) {
@@ -13,6 +14,8 @@ Sandbox::Sandbox(SandSurface surface, const SandSettings& settings)
 }
 
 void Sandbox::setRepose(double dryAngle, double moisture) {
+  settings_.dryAngle = dryAngle;
+  settings_.moisture = moisture;
   slides_.setRepose(reposeOf(dryAngle, moisture));
   slides_.addAll(surface_);
 }

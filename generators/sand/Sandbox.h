@@ -29,6 +29,8 @@ class Sandbox {
  public:
   Sandbox(SandSurface surface, const SandSettings& settings);
 
+  /// As given, with the angle and the moisture that setRepose() set last.
+  const SandSettings& settings() const noexcept { return settings_; }
   const SandSurface& surface() const noexcept { return surface_; }
   const Slides& slides() const noexcept { return slides_; }
   const CleanUp& cleanUp() const noexcept { return cleanUp_; }
@@ -56,9 +58,12 @@ class Sandbox {
   std::size_t bytes() const noexcept;
 
  private:
+  friend class SandState;  // archives
+
   enum class Phase { stamping, sliding, cleaning };
   void collectChanges(Phase phase);
 
+  SandSettings settings_;
   SandSurface surface_;
   Slides slides_;
   CleanUp cleanUp_;

@@ -57,6 +57,8 @@ class Slides {
   std::size_t bytes() const noexcept;
 
  private:
+  friend class SandState;  // archives
+
   void look(SandSurface& surface, TriangleId t);
   bool divideEdges(SandSurface& surface, TriangleId t, const Face& face);
   bool divideEdgesAt(SandSurface& surface, VertexId v);

@@ -73,6 +73,8 @@ class Stamper {
   std::size_t bytes() const noexcept;
 
  private:
+  friend class SandState;  // archives
+
   /// An outline's vertices and edges carry this id or the next: outer, inner.
   struct Ids {
     std::uint32_t outer = 0, inner = 0;

@@ -33,6 +33,8 @@ class ConstraintTable {
   }
 
  private:
+  friend class SandState;  // archives
+
   static constexpr std::uint32_t kEmpty = 0xffffffffU;
   struct Place {
     std::uint32_t a = kEmpty;  // the smaller one

@@ -48,6 +48,8 @@ class JumpGrid {
   std::size_t bytes() const noexcept { return cells_.bytes(); }
 
  private:
+  friend class SandState;  // archives
+
   std::size_t cell(LatticePoint p) const noexcept {
     return static_cast<std::size_t>(p.y >> shift_) * columns_ + static_cast<std::size_t>(p.x >> shift_);
   }

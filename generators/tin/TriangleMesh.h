@@ -158,6 +158,8 @@ class TriangleMesh {
   }
 
  private:
+  friend class SandState;  // archives
+
   static constexpr std::uint32_t kFree = 0xffffffffU;
 
   struct Vertex {

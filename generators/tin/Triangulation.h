@@ -191,6 +191,7 @@ class Triangulation {
   Result<void> validateAround(VertexId v) const;
 
  private:
+  friend class SandState;  // archives
   /// One side of a gap in the mesh: it begins at `from`; beyond it lies `outer`.
   struct Rim {
     VertexId from = kNoVertex;

@@ -1,6 +1,5 @@
 // Stamps, slides and clean-up in random order, with random tools at random places: nothing may break, ever.
 // TEREN_FULL=1 plays a hundred times as long.
-#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -8,112 +7,20 @@
 
 #include <gtest/gtest.h>
 
-#include "generators/sand/Sandbox.h"
-#include "tests/generators/sand/Heaps.h"
+#include "tests/generators/sand/RandomGame.h"
 
 namespace teren {
 namespace {
-
-constexpr std::size_t kMostVertices = 2'500;  // then the game starts anew on other ground
 
 int operations() {
   return std::getenv("TEREN_FULL") != nullptr ? 10'000'000 : 100'000;
 }
 
-std::vector<ToolShape> toolbox() {
-  const std::vector<ToolPoint> hook{{-0.04, -0.04}, {0.04, -0.04}, {0.04, 0.04},  {-0.04, 0.04},
-                                    {-0.04, 0.02},  {0.02, 0.02},  {0.02, -0.02}, {-0.04, -0.02}};
-  return {*ToolShape::disc(0.05, 0.1),     *ToolShape::disc(0.02, 0.03, 5), *ToolShape::square(0.1, 0.05),
-          *ToolShape::rake(0.16, 0.04, 4), *ToolShape::wedge(0.08, 0.1),    *ToolShape::ball(0.1, 0.06),
-          *ToolShape::polygon(hook, 0.07)};
-}
-
-/// One game and its own account of the volume.
-class Game {
- public:
-  explicit Game(std::uint64_t seed) : random_(seed), sandbox_(ground(random_), settings(random_)) {
-    all_ = sandbox_.surface().volume() + sandbox_.surface().owed();
-    sandbox_.loosenAll();
-  }
-
-  bool isOver() const { return sandbox_.surface().mesh().vertexCount() > kMostVertices; }
-
-  void play(const std::vector<ToolShape>& tools) {
-    switch (random_.next() % 8) {
-      case 0:
-      case 1:
-        stamp(tools[random_.next() % tools.size()]);
-        break;
-      case 2:
-      case 3:
-      case 4:
-        sandbox_.slide(random_.next() % 400);
-        break;
-      case 5:
-      case 6:
-        sandbox_.clean();
-        break;
-      default:
-        if (random_.next() % 16 == 0)
-          sandbox_.setRepose(20.0 + 20.0 * uniform(random_.next()), uniform(random_.next()));
-        sandbox_.forgetChanges();
-    }
-  }
-
-  /// What is wrong, or nothing.
-  std::string fault() const {
-    const SandSurface& surface = sandbox_.surface();
-    if (!(surface.volume() + surface.owed() == all_)) return "volume is lost";
-    if (const Result<void> sound = surface.validate(); !sound) return sound.error().message;
-    const double drift = std::fabs(asDouble(surface.owed()));
-    if (surface.volumeMoved() > 0 && drift > 1e-9 * asDouble(surface.volumeMoved()))
-      return "the account has run up";
-    if (sandbox_.cleanUp().count().largestError > sandbox_.cleanUp().tolerance())
-      return "clean-up has moved ground";
-    return {};
-  }
-
- private:
-  static SandSurface ground(RandomSequence& random) {
-    const std::uint64_t seed = random.next();
-    const double steep = uniform(random.next()), loose = random.next() % 3 == 0 ? 0.01 : 5.0;
-    const int count = 10 + static_cast<int>(random.nextBits(8));
-    return scatteredSand(count, seed, loose, [steep](double x, double y) {
-      const double u = 3.0 * x - std::floor(3.0 * x), v = 2.0 * y - std::floor(2.0 * y);
-      return 0.4 * steep * u * v;
-    });
-  }
-  static SandSettings settings(RandomSequence& random) {
-    SandSettings settings;
-    settings.longestEdge = 0.03 + 0.3 * uniform(random.next());
-    settings.flatness = random.next() % 4 == 0 ? 0.0 : 1e-5 + 1e-2 * uniform(random.next());
-    settings.stamp.loosening = 0.05 * uniform(random.next());
-    return settings;
-  }
-
-  /// A place that may lie outside, at a height that may be in the air or deep down.
-  void stamp(const ToolShape& tool) {
-    StampPlace place{1.1 * uniform(random_.next()) - 0.05, 1.1 * uniform(random_.next()) - 0.05,
-                     0.3 * uniform(random_.next()) - 0.1};
-    if (random_.next() % 4 != 0) {
-      const double x = uniformAroundZero(random_.next()), y = uniformAroundZero(random_.next());
-      const double length = std::sqrt(x * x + y * y);
-      place.directionX = x / length;
-      place.directionY = y / length;
-    }
-    (void)sandbox_.stamp(tool, place);  // a refusal changes nothing, which fault() would notice
-  }
-
-  RandomSequence random_;
-  Sandbox sandbox_;
-  SixfoldVolume all_ = 0;
-};
-
 TEST(RandomPlay, NeverBreaksTheMeshNorLosesVolume) {
   const std::vector<ToolShape> tools = toolbox();
   const int most = operations();
   std::uint64_t seed = 61;
-  auto game = std::make_unique<Game>(seed);
+  auto game = std::make_unique<RandomGame>(seed);
   int sinceChecked = 0;
   for (int n = 0; n < most; ++n) {
     game->play(tools);
@@ -121,7 +28,7 @@ TEST(RandomPlay, NeverBreaksTheMeshNorLosesVolume) {
       ASSERT_EQ(game->fault(), "") << "after operation " << n << ", seed " << seed;
       sinceChecked = 0;
     }
-    if (game->isOver()) game = std::make_unique<Game>(++seed);
+    if (game->isOver()) game = std::make_unique<RandomGame>(++seed);
   }
   RecordProperty("games", static_cast<int>(seed - 60));
 }
@@ -129,7 +36,7 @@ TEST(RandomPlay, NeverBreaksTheMeshNorLosesVolume) {
 TEST(RandomPlay, IsSoundAfterEverySingleOperation) {
   const std::vector<ToolShape> tools = toolbox();
   for (std::uint64_t seed = 1'001; seed < 1'011; ++seed) {
-    Game game(seed);
+    RandomGame game(seed);
     for (int n = 0; n < operations() / 1'000 && !game.isOver(); ++n) {
       game.play(tools);
       ASSERT_EQ(game.fault(), "") << "after operation " << n << ", seed " << seed;
