@@ -18,8 +18,8 @@
 #include "apps/fly/HeadUpDisplay.h"
 #include "apps/fly/KeyMap.h"
 #include "apps/fly/LandSource.h"
-#include "apps/fly/RenderArea.h"
 #include "apps/window/FrameStatistics.h"
+#include "apps/window/RenderArea.h"
 
 namespace teren {
 

@@ -1,4 +1,4 @@
-#include "apps/fly/RenderArea.h"
+#include "apps/window/RenderArea.h"
 
 #include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/misc/SoContextHandler.h>
