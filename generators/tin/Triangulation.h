@@ -176,9 +176,8 @@ class Triangulation {
 
   /// From now on every operation appends each triangle it takes away and each it makes, in order, to the
   /// list; nullptr: to none. A triangle may come and go within one operation. So the change of any integral
-  /// over the surface is the sum over the created minus the sum over the removed, as long as heights are as
-  /// they were during the operation. `fenced` gets each triangle of which a side becomes or ceases to be
-  /// constrained while it stays. The caller owns the lists, clears them, and keeps them alive.
+  /// is the sum over the created minus the sum over the removed, at heights as during the operation. `fenced`
+  /// gets triangles of which a side becomes or ceases to be constrained. Both lists are the caller's.
   void recordChanges(std::vector<TriangleChange>* changes, std::vector<TriangleId>* fenced = {}) noexcept {
     changes_ = changes;
     fenced_ = fenced;
