@@ -9,12 +9,12 @@
 #include "teren/Parameter.h"
 #include "teren/Quote.h"
 
+#include "apps/files/OutputFile.h"
 #include "apps/options/WorldOptions.h"
 #include "apps/teren/Command.h"
 #include "apps/teren/HeightFile.h"
 #include "apps/teren/Interruption.h"
 #include "apps/teren/JsonOutput.h"
-#include "apps/teren/OutputFile.h"
 #include "apps/teren/ProgressLine.h"
 
 namespace teren {

@@ -8,9 +8,9 @@
 #include "teren/PluginRegistry.h"
 #include "teren/Quote.h"
 
+#include "apps/files/OutputFile.h"
 #include "apps/teren/Command.h"
 #include "apps/teren/Interruption.h"
-#include "apps/teren/OutputFile.h"
 #include "apps/teren/PluginProject.h"
 
 namespace teren {

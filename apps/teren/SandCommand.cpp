@@ -9,9 +9,9 @@
 #include "teren/Parameter.h"
 #include "teren/Quote.h"
 
+#include "apps/files/OutputFile.h"
 #include "apps/teren/Command.h"
 #include "apps/teren/Interruption.h"
-#include "apps/teren/OutputFile.h"
 #include "apps/teren/ProgressLine.h"
 #include "apps/teren/SandExperiment.h"
 

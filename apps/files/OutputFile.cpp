@@ -1,4 +1,4 @@
-#include "apps/teren/OutputFile.h"
+#include "apps/files/OutputFile.h"
 
 #include <cerrno>
 #include <cstdlib>
