@@ -134,6 +134,7 @@ std::size_t uploadOnce(GLenum target, unsigned& name, const std::vector<T>& data
 
 Result<ShaderProgram> ShaderProgram::link(const char* vertexShader, const char* fragmentShader,
                                           std::span<const char* const> attributes) {
+  if (!glslThere()) return Error{"OpenGL offers no shading language 1.20 here"};
   ShaderProgram program;
   program.name_ = glCreateProgram();
   attach(program.name_, GL_VERTEX_SHADER, vertexShader);
@@ -182,7 +183,6 @@ void ShaderProgram::release() {
 }
 
 Result<std::unique_ptr<TerrainPainter>> ShaderPainter::create() {
-  if (!glslThere()) return Error{"OpenGL offers no shading language 1.20 here"};
   std::unique_ptr<ShaderPainter> painter(new ShaderPainter);
   const Result<void> linked = painter->link();
   if (!linked) {

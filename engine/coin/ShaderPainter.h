@@ -15,7 +15,8 @@ namespace teren {
 class ShaderProgram {
  public:
   ShaderProgram() = default;
-  /// `attributes` are bound to the numbers 0, 1, 2 ... in order. The error is GL's log.
+  /// `attributes` are bound to the numbers 0, 1, 2 ... in order. The error is GL's log, or that
+  /// the context has no GLSL 1.20.
   static Result<ShaderProgram> link(const char* vertexShader, const char* fragmentShader,
                                     std::span<const char* const> attributes);
   void use() const;
