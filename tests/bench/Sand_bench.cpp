@@ -3,8 +3,10 @@
 //   bench-sand [ITERATIONS [VERTICES]...]
 // The tool is a disc of 12 corners whose radius is 6 times the mean distance of vertices, so that it covers
 // about 110 of them in every mesh; it is as deep as half its radius, and stamps a third of its radius apart.
-// All ground is loose. An iteration is one stamp, at most 20,000 steps of slides, the clean-up, and the list
-// of changes. The bound is latency: stars and queues of a few thousand faces, scattered over a large mesh.
+// All ground is loose. An iteration is one stamp, at most 20,000 steps of slides, the clean-up, and
+// publishing; a second line says what publishing takes, and the bytes by which a snapshot differs from the
+// last one, which go to the graphics card. The bound is latency: stars and queues of a few thousand faces,
+// scattered over a large mesh.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "generators/sand/LevelSand.h"
+#include "generators/sand/SandPublisher.h"
 #include "generators/sand/Sandbox.h"
 #include "tests/bench/Timing.h"
 
@@ -23,7 +26,7 @@ constexpr std::uint64_t kSteps = 20'000;
 
 /// What iterations cost [s], and how many vertices and triangles changed.
 struct Samples {
-  std::vector<double> all, stamp, slide, clean, changed;
+  std::vector<double> all, stamp, slide, clean, publish, changed, uploaded;
 };
 
 double highest(const std::vector<double>& values) {
@@ -38,7 +41,8 @@ class Drag {
         tool_(*ToolShape::disc(6.0 * spacing_, 3.0 * spacing_)),
         sandbox_(levelSand(count, 1.0, static_cast<std::size_t>(count - 4) / 64), settings(spacing_)),
         start_(static_cast<double>(sandbox_.surface().mesh().vertexCount())),
-        bytesAtStart_(static_cast<double>(sandbox_.bytes())) {}
+        bytesAtStart_(static_cast<double>(sandbox_.bytes())),
+        published_(publisher_.publish(sandbox_)) {}
 
   void iterate() {
     const double x = 0.5 + 0.25 * std::cos(angle_), y = 0.5 + 0.25 * std::sin(angle_);
@@ -53,8 +57,12 @@ class Drag {
     const double cleaned = processorSeconds();
     samples_.changed.push_back(static_cast<double>(sandbox_.changedVertices().ids().size() +
                                                    sandbox_.changedTriangles().ids().size()));
-    sandbox_.forgetChanges();
-    samples_.all.push_back(processorSeconds() - begin);
+    const std::shared_ptr<const SandSnapshot> next = publisher_.publish(sandbox_);
+    const double ended = processorSeconds();
+    samples_.uploaded.push_back(static_cast<double>(bytesBetween(*published_, *next)));
+    published_ = next;
+    samples_.all.push_back(ended - begin);
+    samples_.publish.push_back(ended - cleaned);
     samples_.stamp.push_back(stamped - begin);
     samples_.slide.push_back(slid - stamped);
     samples_.clean.push_back(cleaned - slid);
@@ -70,8 +78,15 @@ class Drag {
         1e3 * median(samples_.slide), 1e3 * median(samples_.clean), median(samples_.changed),
         bytesAtStart_ / start_, static_cast<double>(sandbox_.bytes()) / vertices, vertices - start_,
         sandbox_.slides().atRest() ? "at rest" : "still sliding");
+    std::printf(
+        "%8d: publishing %.3f ms (largest %.2f), %.0f kB uploaded (largest %.0f); snapshot %.1f bytes per "
+        "vertex\n",
+        count_, 1e3 * median(samples_.publish), 1e3 * highest(samples_.publish),
+        1e-3 * median(samples_.uploaded), 1e-3 * highest(samples_.uploaded),
+        static_cast<double>(published_->bytes()) / vertices);
   }
   double medianTime() const { return median(samples_.all); }
+  double medianPublishing() const { return median(samples_.publish); }
 
  private:
   static SandSettings settings(double spacing) {
@@ -82,12 +97,23 @@ class Drag {
     return settings;
   }
 
+  static std::size_t bytesBetween(const SandSnapshot& last, const SandSnapshot& next) {
+    std::size_t bytes = 0;
+    next.vertexPages().forEachDifference(last.vertexPages(),
+                                         [&](std::size_t) { bytes += sizeof(SandVertexPage); });
+    next.trianglePages().forEachDifference(last.trianglePages(),
+                                           [&](std::size_t) { bytes += sizeof(SandTrianglePage::corners); });
+    return bytes;
+  }
+
   int count_;
   double spacing_;
   ToolShape tool_;
   Sandbox sandbox_;
   double start_;
   double bytesAtStart_;
+  SandPublisher publisher_;
+  std::shared_ptr<const SandSnapshot> published_;
   double angle_ = 0.0;
   Samples samples_;
 };
@@ -109,5 +135,7 @@ int main(int argc, char** argv) {
   if (drags.size() > 1) {
     std::printf("median at %d / median at %d = %.2f (wanted: below 2)\n", counts.back(), counts.front(),
                 drags.back()->medianTime() / drags.front()->medianTime());
+    std::printf("publishing at %d / at %d = %.2f\n", counts.back(), counts.front(),
+                drags.back()->medianPublishing() / drags.front()->medianPublishing());
   }
 }
