@@ -74,18 +74,19 @@ void FlyScene::showOtherLand(const Engine& engine) {
 
 SbVec3f FlyScene::place(const Position& position, double height, double pitch) const {
   const Offset away = offset(zero_.position(), position, pitch);
-  return {static_cast<float>(away.east), static_cast<float>(away.north), static_cast<float>(height)};
+  return {static_cast<float>(away.east), static_cast<float>(away.north),
+          static_cast<float>(height - zero_.height())};
 }
 
 void FlyScene::moveZero(double pitch) {
   const Position& zero = zero_.position();
-  terrain_->origin = SbVec3d(zero.x(pitch), zero.y(pitch), 0.0);
+  terrain_->origin = SbVec3d(zero.x(pitch), zero.y(pitch), zero_.height());
 }
 
 void FlyScene::show(Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt) {
   const double pitch = flight.engine().world().pitch();
   const Pose& eye = view.pose;
-  if (zero_.follow(eye.position, pitch)) moveZero(pitch);
+  if (zero_.follow(eye.position, eye.height, pitch)) moveZero(pitch);
   if (std::exchange(changes_, flight.changes()) != flight.changes()) showOtherLand(flight.engine());
   terrain_->setScene(flight.engine().scene());
 

@@ -56,11 +56,11 @@ void setUpFog(const Picture& picture) {
 }
 
 /// A square of opaque water, hazed by the same fog at its corners: cut into rows, so that the fog is right
-/// inside too.
-void drawWater(const Picture& picture, const SbVec3f& eye) {
+/// inside too. `eye` and `level` are counted from the anchor.
+void drawWater(const Picture& picture, const SbVec3f& eye, float level) {
   constexpr int kCuts = 32;
   const float step = 2.0F * picture.viewDistance / kCuts;
-  const SbVec3f corner(eye[0] - picture.viewDistance, eye[1] - picture.viewDistance, picture.waterLevel);
+  const SbVec3f corner(eye[0] - picture.viewDistance, eye[1] - picture.viewDistance, level);
   glColor3f(0.16F, 0.32F, 0.44F);
   for (int row = 0; row < kCuts; ++row) {
     glBegin(GL_TRIANGLE_STRIP);
@@ -75,12 +75,7 @@ void drawWater(const Picture& picture, const SbVec3f& eye) {
 
 }  // namespace
 
-std::vector<PlainPainter::Vertex> PlainPainter::build(const Mesh& mesh, const Sample& reference,
-                                                      const Picture& picture) {
-  const auto column = static_cast<float>(mesh.originColumn - reference.column);
-  const auto row = static_cast<float>(mesh.originRow - reference.row);
-  const auto step = static_cast<float>(std::int64_t{1} << mesh.level);
-  const auto spacing = static_cast<float>(picture.placement.spacing());
+std::vector<PlainPainter::Vertex> PlainPainter::colour(const Mesh& mesh, const Picture& picture) {
   std::vector<Vertex> vertices;
   vertices.reserve(mesh.vertices.size());
   for (const SurfaceVertex& vertex : mesh.vertices) {
@@ -91,28 +86,47 @@ std::vector<PlainPainter::Vertex> PlainPainter::build(const Mesh& mesh, const Sa
     const SbVec3f light = SbVec3f(0.40F, 0.46F, 0.56F) + picture.sunlight * direct;
     const SbVec3f colour =
         groundColour(vertex.height, std::sqrt(x * x + y * y) / up, picture.waterLevel - vertex.height);
-    vertices.push_back({(static_cast<float>(vertex.column) * step + column) * spacing,
-                        (static_cast<float>(vertex.row) * step + row) * spacing, vertex.height,
-                        asBytes({colour[0] * light[0], colour[1] * light[1], colour[2] * light[2]})});
+    vertices.push_back(
+        {0.0F, 0.0F, 0.0F, asBytes({colour[0] * light[0], colour[1] * light[1], colour[2] * light[2]})});
   }
   return vertices;
 }
 
-void PlainPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
-  const Sample reference = picture.placement.referenceNear(picture.eye);
+void PlainPainter::place(const Mesh& mesh, std::vector<Vertex>& vertices) const {
+  const auto column = static_cast<float>(mesh.originColumn - anchor_.sample.column);
+  const auto row = static_cast<float>(mesh.originRow - anchor_.sample.row);
+  const auto step = static_cast<float>(std::int64_t{1} << mesh.level);
+  const auto spacing = static_cast<float>(spacing_);
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const SurfaceVertex& from = mesh.vertices[k];
+    vertices[k].x = (static_cast<float>(from.column) * step + column) * spacing;
+    vertices[k].y = (static_cast<float>(from.row) * step + row) * spacing;
+    vertices[k].z = from.height - anchor_.height;
+  }
+}
+
+/// What is kept must fit the picture.
+void PlainPainter::takeLook(const Picture& picture) {
   const double spacing = picture.placement.spacing();
-  if (!(reference == reference_) || sun_ != picture.sun || sunlight_ != picture.sunlight ||
-      waterLevel_ != picture.waterLevel || spacing_ != spacing) {
+  if (sun_ != picture.sun || sunlight_ != picture.sunlight || waterLevel_ != picture.waterLevel ||
+      spacing_ != spacing) {
     vertices_.clear();
-    reference_ = reference;
     sun_ = picture.sun;
     sunlight_ = picture.sunlight;
     waterLevel_ = picture.waterLevel;
     spacing_ = spacing;
   }
-  const SbVec3d corner = picture.placement.position(reference);
+  const Anchor anchor = picture.placement.anchorNear(picture.eye, kAnchorStep);
+  if (anchor == anchor_) return;
+  anchor_ = anchor;
+  for (auto& [mesh, vertices] : vertices_) place(*mesh, vertices);
+}
+
+void PlainPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
+  takeLook(picture);
+  const SbVec3d away = picture.placement.position(anchor_) - picture.eye;
   SbDPMatrix toEye;
-  toEye.setTranslate(corner);
+  toEye.setTranslate(away);
   toEye.multRight(picture.toEye);
 
   glPushAttrib(GL_COLOR_BUFFER_BIT | GL_CURRENT_BIT | GL_ENABLE_BIT | GL_FOG_BIT | GL_LIGHTING_BIT |
@@ -125,7 +139,7 @@ void PlainPainter::draw(const Picture& picture, std::span<const Mesh* const> mes
   glDisable(GL_BLEND);
   setUpFog(picture);
   drawGround(picture, meshes);
-  if (picture.water) drawWater(picture, picture.eye - SbVec3f(corner));
+  if (picture.water) drawWater(picture, SbVec3f(-away), picture.waterLevel - anchor_.height);
   glMatrixMode(GL_PROJECTION);
   glPopMatrix();
   glMatrixMode(GL_MODELVIEW);
@@ -139,7 +153,10 @@ void PlainPainter::drawGround(const Picture& picture, std::span<const Mesh* cons
   glEnableClientState(GL_COLOR_ARRAY);
   for (const Mesh* mesh : meshes) {
     auto found = vertices_.find(mesh);
-    if (found == vertices_.end()) found = vertices_.emplace(mesh, build(*mesh, reference_, picture)).first;
+    if (found == vertices_.end()) {
+      found = vertices_.emplace(mesh, colour(*mesh, picture)).first;
+      place(*mesh, found->second);
+    }
     const std::vector<Vertex>& vertices = found->second;
     glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &vertices.front().x);
     glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), vertices.front().colour.data());

@@ -11,12 +11,14 @@
 
 namespace teren {
 
-/// Keeps, in the program's own memory, the vertices of each mesh it has drawn: positions relative to the
-/// reference sample, made from whole numbers as the shaders do it, so that shared vertices are equal bit for
-/// bit. They are made again when the reference, the sun or the water level changes; 16 bytes a vertex.
+/// Keeps, in the program's own memory, the vertices of each mesh it has drawn: positions relative to an
+/// anchor, made from whole numbers as the shaders do it, so that shared vertices are equal bit for bit. They
+/// are placed again when the anchor changes, every kAnchorStep metres or so, and coloured again when the sun
+/// or the water level does; 16 bytes a vertex.
 class PlainPainter final : public TerrainPainter {
  public:
   PlainPainter() = default;
+  static constexpr double kAnchorStep = 64.0;  ///< [m] halving it halves what a vertex strays on the screen
 
   void draw(const Picture& picture, std::span<const Mesh* const> meshes) override;
   void forget(const Mesh& mesh) override { vertices_.erase(&mesh); }
@@ -28,10 +30,12 @@ class PlainPainter final : public TerrainPainter {
     float x, y, z;
     std::array<std::uint8_t, 4> colour;
   };
-  static std::vector<Vertex> build(const Mesh& mesh, const Sample& reference, const Picture& picture);
+  static std::vector<Vertex> colour(const Mesh& mesh, const Picture& picture);
+  void place(const Mesh& mesh, std::vector<Vertex>& vertices) const;
+  void takeLook(const Picture& picture);
   void drawGround(const Picture& picture, std::span<const Mesh* const> meshes);
 
-  Sample reference_;
+  Anchor anchor_;
   SbVec3f sun_{0.0F, 0.0F, 0.0F};
   SbVec3f sunlight_{0.0F, 0.0F, 0.0F};
   float waterLevel_ = 0.0F;

@@ -87,7 +87,7 @@ void SceneChildren::traverseChild(SoAction* action, int index, const ScenePlacem
 
 SbVec3f SceneChildren::offset(int index, const ScenePlacement& placement) const {
   const Mesh& mesh = *scene_->meshes()[static_cast<std::size_t>(index)];
-  return SbVec3f(placement.position({mesh.originColumn, mesh.originRow}));
+  return SbVec3f(placement.position(Sample{mesh.originColumn, mesh.originRow}));
 }
 
 }  // namespace teren

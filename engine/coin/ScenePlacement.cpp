@@ -10,9 +10,10 @@ ScenePlacement::ScenePlacement(const SbVec3d& origin, double spacing) noexcept :
   assert(spacing > 0.0);
   const auto place = [spacing](double metres, std::int64_t& sample) {
     constexpr auto kLimit = static_cast<double>(kFarthest);
-    const double whole = std::floor(metres / spacing);
+    const double nearest = std::round(metres / spacing);
+    const double whole = nearest * spacing == metres ? nearest : std::floor(metres / spacing);
     sample = static_cast<std::int64_t>(std::clamp(whole, -kLimit, kLimit));
-    return std::fabs(whole) > kLimit ? 0.0 : std::fma(-whole, spacing, metres);
+    return std::fabs(whole) > kLimit || whole * spacing == metres ? 0.0 : std::fma(-whole, spacing, metres);
   };
   const double east = place(origin[0], origin_.column);
   const double north = place(origin[1], origin_.row);
@@ -25,22 +26,28 @@ SbVec3d ScenePlacement::position(const Sample& sample) const noexcept {
   return {east * spacing_ - remainder_[0], north * spacing_ - remainder_[1], -remainder_[2]};
 }
 
-// An eye beyond the world's width, or at no number, sees nothing: any reference does. Samples lie within
-// 2^61.
-constexpr double kFarthest = 0x1p61;
+SbVec3d ScenePlacement::position(const Anchor& anchor) const noexcept {
+  return position(anchor.sample) + SbVec3d(0.0, 0.0, static_cast<double>(anchor.height));
+}
 
-Sample ScenePlacement::referenceNear(const SbVec3f& point) const noexcept {
-  const auto nearest = [this](double metres, double remainder, std::int64_t origin) {
+Anchor ScenePlacement::anchorNear(const SbVec3d& point, double step) const noexcept {
+  assert(step > 0.0);
+  std::int64_t cell = 1;
+  while (static_cast<double>(2 * cell) * spacing_ <= step && cell < kFarthest) cell *= 2;
+  // An eye beyond the world's width, or at no number, sees nothing: any anchor does.
+  const auto nearest = [this, cell](double metres, double remainder, std::int64_t origin) {
+    constexpr auto kLimit = static_cast<double>(kFarthest);
     const double away = (metres + remainder) / spacing_;
-    const std::int64_t sample = origin + (std::fabs(away) < kFarthest ? std::llround(away) : 0);
-    const std::int64_t shifted = sample + kReferenceStep / 2;
-    return shifted - ((shifted % kReferenceStep) + kReferenceStep) % kReferenceStep;
+    const std::int64_t sample = origin + (std::fabs(away) < kLimit ? std::llround(away) : 0) + cell / 2;
+    return sample - ((sample % cell) + cell) % cell;
   };
-  return {nearest(point[0], remainder_[0], origin_.column), nearest(point[1], remainder_[1], origin_.row)};
+  const double up = std::round((point[2] + remainder_[2]) / step) * step;
+  return {{nearest(point[0], remainder_[0], origin_.column), nearest(point[1], remainder_[1], origin_.row)},
+          std::isfinite(up) ? static_cast<float>(up) : 0.0F};
 }
 
 SbBox3f ScenePlacement::box(const Mesh& mesh) const noexcept {
-  const SbVec3d corner = position({mesh.originColumn, mesh.originRow});
+  const SbVec3d corner = position(Sample{mesh.originColumn, mesh.originRow});
   const double step = spacing_ * static_cast<double>(std::int64_t{1} << mesh.level);
   return {static_cast<float>(corner[0]),
           static_cast<float>(corner[1]),

@@ -73,6 +73,15 @@ void pointAttributes(const std::byte* vertices) {
                         at(vertices, offsetof(SurfaceVertex, normalX)));
 }
 
+constexpr double kAnchorStep = 1.0;  // [m]
+
+/// A sample's place in the period of the ground's texture, -512 ... 511.
+float inPeriod(std::int64_t sample) {
+  constexpr std::int64_t kPeriod = 1024;
+  const std::int64_t ahead = ((sample % kPeriod) + kPeriod) % kPeriod;
+  return static_cast<float>(ahead < kPeriod / 2 ? ahead : ahead - kPeriod);
+}
+
 const SbVec3f kDeepWater(0.05F, 0.16F, 0.22F);
 constexpr int kWaterRings = 32;
 constexpr int kWaterSectors = 64;
@@ -242,17 +251,17 @@ void ShaderPainter::makeWater() {
 void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
   const SavedState saved;
   buffers_.frame();
-  const Sample reference = picture.placement.referenceNear(picture.eye);
-  const SbVec3d corner = picture.placement.position(reference);
-  SbDPMatrix toClip;
-  toClip.setTranslate(corner);
-  toClip.multRight(picture.toEye);
+  const Anchor anchor = picture.placement.anchorNear(picture.eye, kAnchorStep);
+  const SbVec3f eye(picture.eye - picture.placement.position(anchor));
+  SbDPMatrix toClip = picture.toEye;
   toClip.multRight(picture.toClip);
-  const SbVec3f eye = picture.eye - SbVec3f(corner);
   for (const ShaderProgram* program : {&ground_, &water_, &deep_}) {
     program->use();
     program->set("toClip", toClip);
     program->set("spacing", static_cast<float>(picture.placement.spacing()));
+    program->set("anchorHeight", anchor.height);
+    program->set("eye", eye);
+    program->set("phase", inPeriod(anchor.sample.column), inPeriod(anchor.sample.row));
     program->set("sun", picture.sun);
     program->set("viewDistance", picture.viewDistance);
     program->set("waterLevel", picture.waterLevel);
@@ -260,11 +269,6 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
     program->set("sunlight", picture.sunlight);
     program->set("deep", kDeepWater);
     program->set("clearShare", kClearShare);
-    if (program == &ground_) {
-      program->set("eye", eye[0], eye[1]);
-    } else {
-      program->set("eye", eye);
-    }
   }
 
   glActiveTexture(GL_TEXTURE0);
@@ -274,19 +278,19 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(picture.toEye.det3() < 0.0 ? GL_CW : GL_CCW);
-  drawGround(reference, meshes);
+  drawGround(anchor.sample, meshes);
   glDisable(GL_CULL_FACE);
   if (picture.water) drawClearWater();
 }
 
-void ShaderPainter::drawGround(const Sample& reference, std::span<const Mesh* const> meshes) {
+void ShaderPainter::drawGround(const Sample& anchor, std::span<const Mesh* const> meshes) {
   constexpr std::int64_t kExact = std::int64_t{1} << 23;  // leaves room for the mesh itself below 2^24
   glDisable(GL_BLEND);
   ground_.use();
   for (const GLuint attribute : {kCell, kHeight, kSlope}) glEnableVertexAttribArray(attribute);
   for (const Mesh* mesh : meshes) {
-    const std::int64_t column = mesh->originColumn - reference.column;
-    const std::int64_t row = mesh->originRow - reference.row;
+    const std::int64_t column = mesh->originColumn - anchor.column;
+    const std::int64_t row = mesh->originRow - anchor.row;
     if (std::abs(column) > kExact || std::abs(row) > kExact) continue;  // thousands of kilometres away
     const TerrainBuffers::Start start = buffers_.bind(*mesh);
     pointAttributes(start.vertices);

@@ -45,7 +45,7 @@ class ShaderPainter final : public TerrainPainter {
   Result<void> link();
   void makeNoise();
   void makeWater();
-  void drawGround(const Sample& reference, std::span<const Mesh* const> meshes);
+  void drawGround(const Sample& anchor, std::span<const Mesh* const> meshes);
   /// Before the ground: the opaque water, and behind everything what one sees deep in the clear water.
   void drawFarWater() const;
   /// After the ground.

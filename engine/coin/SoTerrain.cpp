@@ -43,19 +43,7 @@ constexpr double kTimerInterval = 1.0 / 60.0;  // [s]
 constexpr double kLongestStep = 0.1;           // [s] after a rest, time does not jump
 constexpr float kDry = -1e6F;                  // [m] a water level from here down means no water
 
-SbDPMatrix precise(const SbMatrix& matrix) {
-  SbDPMatrix result;
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) result[row][column] = static_cast<double>(matrix[row][column]);
-  }
-  return result;
-}
-
 bool isFinite(const SbVec3d& vector) {
-  return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
-}
-
-bool isFinite(const SbVec3f& vector) {
   return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
 }
 
@@ -83,7 +71,7 @@ class SoTerrain::Private {
   teren::TerrainFields readFields() const;
   void makeEngineIfFieldsChanged();
   void armTimer();
-  void followEye(const SbVec3f& point);
+  void followEye(const SbVec3d& point);
   void work(double dt);
   static void tick(void* self, SoSensor* sensor);
 
@@ -110,7 +98,7 @@ class SoTerrain::Private {
   bool fieldsChanged = true;        // since the last attempt to make an engine
   bool showsThisEngine = false;     // whether the scene is one of source.engine()
   bool eyeMoved = true;             // since the last update
-  SbVec3f eye{0.0F, 0.0F, 0.0F};    // of the last traversal, in scene coordinates
+  SbVec3d eye{0.0, 0.0, 0.0};       // of the last traversal, in scene coordinates
   SbVec3d eyePlace{0.0, 0.0, 0.0};  // the same in the world
   SbVec3d origin{0.0, 0.0, 0.0};    // the last good one, as the next two
   double budget = 0.004;            // [s]
@@ -153,8 +141,8 @@ void SoTerrain::Private::armTimer() {
   if (!fed && !timer.isScheduled()) timer.schedule();
 }
 
-void SoTerrain::Private::followEye(const SbVec3f& point) {
-  const SbVec3d place = origin + SbVec3d(point);
+void SoTerrain::Private::followEye(const SbVec3d& point) {
+  const SbVec3d place = origin + point;
   eye = point;
   if (!isFinite(place) || place == eyePlace) return;
   eyePlace = place;
@@ -224,9 +212,10 @@ teren::Picture SoTerrain::Private::look(SoState* state) const {
   const teren::Sun sun = teren::sunOf(state);
   picture.sun = sun.direction;
   picture.sunlight = sun.light;
-  picture.toClip = precise(SoProjectionMatrixElement::get(state));
-  picture.toEye = precise(SoModelMatrixElement::get(state));
-  picture.toEye.multRight(precise(SoViewingMatrixElement::get(state)));
+  picture.toClip = teren::precise(SoProjectionMatrixElement::get(state));
+  picture.toEye = teren::precise(SoModelMatrixElement::get(state));
+  picture.toEye.multRight(teren::precise(SoViewingMatrixElement::get(state)));
+  for (int axis = 0; axis < 3; ++axis) picture.toEye[3][axis] = 0.0;
   picture.viewDistance = std::max(distance, 1.0F);
   picture.waterLevel = isWet() ? node.waterLevel.getValue() : kDry;
   picture.haze = haze;
@@ -471,7 +460,7 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
   picture.water =
       teren::showsWater(state, *private_->children.scene(), picture.placement, picture.waterLevel);
   if (meshes.empty() && !picture.water) return;
-  if (static_cast<double>(picture.eye[2]) + private_->origin[2] > static_cast<double>(picture.waterLevel)) {
+  if (picture.eye[2] + private_->origin[2] > static_cast<double>(picture.waterLevel)) {
     std::erase_if(meshes, [&](const teren::Mesh* mesh) { return teren::isLostInWater(*mesh, picture); });
   }
   for (const teren::Mesh* mesh : meshes) private_->drawnTriangles += mesh->indices->size() / 3;

@@ -14,10 +14,18 @@
 
 namespace teren {
 
-SbVec3f eyePosition(SoState* state) {
-  SbVec3f eye;
-  const SbMatrix fromWorld = SoModelMatrixElement::get(state).inverse();
-  fromWorld.multVecMatrix(SoViewVolumeElement::get(state).getProjectionPoint(), eye);
+SbDPMatrix precise(const SbMatrix& matrix) {
+  SbDPMatrix result;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) result[row][column] = static_cast<double>(matrix[row][column]);
+  }
+  return result;
+}
+
+SbVec3d eyePosition(SoState* state) {
+  SbVec3d eye;
+  const SbDPMatrix fromWorld = precise(SoModelMatrixElement::get(state)).inverse();
+  fromWorld.multVecMatrix(SoViewVolumeElement::get(state).getDPViewVolume().getProjectionPoint(), eye);
   return eye;
 }
 
@@ -40,7 +48,8 @@ Sun sunOf(SoState* state) {
 bool isLostInWater(const Mesh& mesh, const Picture& picture) {
   if (mesh.maxHeight < picture.waterLevel - kOpaqueDepth) return true;
   if (mesh.maxHeight >= picture.waterLevel) return false;
-  SbVec3f away = picture.placement.box(mesh).getClosestPoint(picture.eye) - picture.eye;
+  const SbVec3f eye(picture.eye);
+  SbVec3f away = picture.placement.box(mesh).getClosestPoint(eye) - eye;
   away[2] = 0.0F;
   return away.length() > kClearShare * picture.viewDistance;
 }
@@ -57,7 +66,7 @@ bool showsWater(SoState* state, const Scene& scene, const ScenePlacement& placem
 }
 
 std::vector<const Mesh*> visibleMeshes(SoState* state, const Scene& scene, const ScenePlacement& placement) {
-  const SbVec3f eye = eyePosition(state);
+  const SbVec3f eye(eyePosition(state));
   std::vector<std::pair<float, const Mesh*>> ranked;
   ranked.reserve(scene.meshes().size());
   for (const std::shared_ptr<const Mesh>& mesh : scene.meshes()) {

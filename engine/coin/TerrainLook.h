@@ -5,6 +5,8 @@
 #include <vector>
 
 #include <Inventor/SbColor.h>
+#include <Inventor/SbDPMatrix.h>
+#include <Inventor/SbVec3d.h>
 #include <Inventor/SbVec3f.h>
 
 #include "teren/Scene.h"
@@ -12,12 +14,16 @@
 #include "coin/ScenePlacement.h"
 #include "coin/TerrainPainter.h"
 
+class SbMatrix;
 class SoState;
 
 namespace teren {
 
-/// The eye, in the coordinates the model matrix leads from.
-SbVec3f eyePosition(SoState* state);
+/// The eye, in the coordinates the model matrix leads from: the place of the camera as it was given, which is
+/// known better than the matrix that is made from it.
+SbVec3d eyePosition(SoState* state);
+/// A matrix of Inventor's with the numbers it has.
+SbDPMatrix precise(const SbMatrix& matrix);
 
 /// The first directional light of the state; without one, a warm sun in the south-west, 35 degrees high.
 struct Sun {

@@ -6,6 +6,7 @@
 
 #include <Inventor/SbColor.h>
 #include <Inventor/SbDPMatrix.h>
+#include <Inventor/SbVec3d.h>
 #include <Inventor/SbVec3f.h>
 
 #include "teren/Scene.h"
@@ -20,15 +21,16 @@ namespace teren {
 inline constexpr float kOpaqueDepth = 60.0F;
 inline constexpr float kClearShare = 14.0F * 14.0F / (32.0F * 32.0F);
 
-/// One look at a landscape, in scene coordinates.
+/// One look at a landscape, in scene coordinates. The eye's place is no part of the matrices: those of
+/// Inventor are floats, and would lose what is near in the digits of how far the scene's zero is.
 struct Picture {
   explicit Picture(const ScenePlacement& where) : placement(where) {}
 
   ScenePlacement placement;
-  SbDPMatrix toEye;                    ///< scene to eye coordinates (row vectors, as Inventor's matrices)
-  SbDPMatrix toClip;                   ///< eye to clip coordinates
-  SbVec3f eye{0.0F, 0.0F, 0.0F};       ///< where it is looked from
-  SbVec3f sun{0.0F, 0.0F, 1.0F};       ///< unit vector towards the sun
+  SbDPMatrix toEye;               ///< from places relative to `eye` (row vectors, as Inventor's matrices)
+  SbDPMatrix toClip;              ///< eye to clip coordinates
+  SbVec3d eye{0.0, 0.0, 0.0};     ///< where it is looked from
+  SbVec3f sun{0.0F, 0.0F, 1.0F};  ///< unit vector towards the sun
   SbColor sunlight{1.0F, 1.0F, 1.0F};  ///< its colour times its intensity
   float viewDistance = 1.0F;           ///< [m] > 0
   bool water = false;                  ///< whether there is any to draw

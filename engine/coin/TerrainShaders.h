@@ -8,16 +8,19 @@ enum GroundAttribute : unsigned { kCell = 0, kHeight = 1, kSlope = 2, kPlace = 3
 
 /// Watertight by arithmetic: `cell * place.z + place.xy` is a whole number below 2^24, so it is exact and
 /// equal for the shared vertices of neighbouring meshes, whichever mesh it is counted from; everything after
-/// it is the same computation on the same numbers.
+/// it is the same computation on the same numbers. Precise by arithmetic: the anchor is near the eye, so no
+/// step loses more than some last digits of a vertex's distance from the eye.
 inline constexpr char kGroundVertexShader[] = R"(#version 120
 invariant gl_Position;
 attribute vec2 cell;     // column and row in the mesh
 attribute float height;  // [m]
 attribute vec2 slope;    // x and y of the unit normal, times 32767
-attribute vec3 place;    // the mesh's origin counted from the reference sample, and its step
-uniform mat4 toClip;
+attribute vec3 place;    // the mesh's origin counted from the anchor, and its step
+uniform mat4 toClip;         // from positions relative to the eye
 uniform float spacing;       // [m]
-uniform vec2 eye;            // [m] from the reference sample
+uniform float anchorHeight;  // [m]
+uniform vec3 eye;            // [m] from the anchor
+uniform vec2 phase;          // where in the texture's period of 1024 samples the anchor is
 uniform vec3 sun;            // towards it
 uniform float viewDistance;  // [m]
 uniform sampler2D noise;
@@ -26,15 +29,16 @@ varying vec4 ground;  // height, gradient, sunlight, haze
 varying vec4 broad;   // noise over hundreds of metres: once a vertex is enough
 
 void main() {
-  samples = cell * place.z + place.xy;
-  vec3 position = vec3(samples * spacing, height);
+  vec2 counted = cell * place.z + place.xy;
+  samples = counted + phase;
+  vec3 position = vec3(counted * spacing, height - anchorHeight) - eye;
   gl_Position = toClip * vec4(position, 1.0);
   broad = texture2DLod(noise, samples * (1.0 / 1024.0), 0.0) - 0.5;
 
   vec2 flat_ = slope * (1.0 / 32767.0);
   float squared = dot(flat_, flat_);
   float up = sqrt(max(1.0 - squared, 1e-4));
-  float share = min(distance(position.xy, eye) / viewDistance, 1.0);
+  float share = min(length(position.xy) / viewDistance, 1.0);
   float cube = share * share * share;
   ground = vec4(height, sqrt(squared) / up, max(dot(vec3(flat_, up), sun), 0.0),
                 1.0 - exp(-1.1 * share) * (1.0 - cube * cube));
@@ -86,9 +90,11 @@ void main() {
 /// A disc around the eye at the water's level.
 inline constexpr char kWaterVertexShader[] = R"(#version 120
 attribute vec2 cell;  // in the unit disc
-uniform mat4 toClip;
+uniform mat4 toClip;         // from positions relative to the eye
 uniform float spacing;       // [m]
-uniform vec3 eye;            // [m] from the reference sample; the height is absolute
+uniform float anchorHeight;  // [m]
+uniform vec3 eye;            // [m] from the anchor
+uniform vec2 phase;          // where in the texture's period of 1024 samples the anchor is
 uniform float viewDistance;  // [m]
 uniform float waterLevel;    // [m]
 uniform float clearShare;    // of the view distance: from there the water is opaque
@@ -97,13 +103,13 @@ varying vec4 view;  // from the eye, and the haze
 varying float opaque;
 
 void main() {
-  vec3 position = vec3(eye.xy + cell * viewDistance, waterLevel);
+  vec3 position = vec3(cell * viewDistance, waterLevel - anchorHeight - eye.z);
   gl_Position = toClip * vec4(position, 1.0);
-  samples = position.xy / spacing;
+  samples = (eye.xy + position.xy) / spacing + phase;
   float share = min(length(cell), 1.0);
   opaque = clamp(1.5 * share / clearShare - 0.5, 0.0, 1.0);
   float cube = share * share * share;
-  view = vec4(position - eye, 1.0 - exp(-1.1 * share) * (1.0 - cube * cube));
+  view = vec4(position, 1.0 - exp(-1.1 * share) * (1.0 - cube * cube));
 }
 )";
 
