@@ -28,6 +28,8 @@ mode_t ordinaryMode() {
 }  // namespace
 
 Result<OutputFile> OutputFile::create(const std::filesystem::path& file) {
+  // A zero byte ends a name for the system, which would write another file.
+  if (file.native().find('\0') != std::string::npos) return cannotWrite(file, "its name holds a zero byte");
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   std::filesystem::path target = file;

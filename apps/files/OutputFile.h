@@ -14,8 +14,8 @@ namespace teren {
 class OutputFile {
  public:
   /// Makes the temporary file. Refuses a name that is taken by anything but a regular file (renaming would
-  /// replace a device or a pipe), and a folder that cannot be written. A link is followed: its target is what
-  /// is replaced.
+  /// replace a device or a pipe), a name with a zero byte, and a folder that cannot be written. A link is
+  /// followed: its target is what is replaced.
   static Result<OutputFile> create(const std::filesystem::path& file);
 
   OutputFile(OutputFile&& other) noexcept = default;

@@ -2,70 +2,13 @@
 
 #include <array>
 #include <cassert>
-#include <cerrno>
-#include <charconv>
-#include <cstring>
 #include <string>
-#include <string_view>
 
 #include "teren/HeightSampling.h"
 #include "teren/Parameter.h"
 
 namespace teren {
 namespace {
-
-constexpr int kNormalDecimals = 4;
-
-/// Text on its way to a stream, row by row, with the questions between the rows.
-class RowWriter {
- public:
-  RowWriter(std::FILE* stream, const RowProgress& progress, std::size_t rows)
-      : stream_(stream), progress_(progress), wanted_(rows) {}
-
-  RowWriter& operator<<(std::string_view text) {
-    text_ += text;
-    return *this;
-  }
-  RowWriter& operator<<(std::size_t number) { return append(number); }
-  /// The fewest digits that give the same number back; never an exponent, which not every reader knows.
-  template <class Real>
-  RowWriter& shortest(Real number) {
-    return append(number == 0 ? Real{0} : number, std::chars_format::fixed);
-  }
-  RowWriter& rounded(double number) { return append(number, std::chars_format::fixed, kNormalDecimals); }
-
-  /// Writes what was appended since the last call.
-  Result<void> flush() {
-    const bool written = std::fwrite(text_.data(), 1, text_.size(), stream_) == text_.size();
-    text_.clear();
-    if (!written) return Error{std::string("the disk refuses: ") + std::strerror(errno)};
-    return {};
-  }
-  /// A block of rows, each appended by `row(index)` and written.
-  template <class Row>
-  Result<void> rows(int count, const Row& row) {
-    for (int index = 0; index < count; ++index) {
-      if (!progress_(done_++, wanted_)) return Error{"interrupted"};
-      row(index);
-      if (Result<void> written = flush(); !written) return written;
-    }
-    return {};
-  }
-
- private:
-  template <class... Arguments>
-  RowWriter& append(Arguments... number) {
-    std::array<char, 400> digits{};  // the smallest and largest doubles have over 300
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number...).ptr;
-    text_.append(digits.data(), end);
-    return *this;
-  }
-
-  std::FILE* stream_;
-  const RowProgress& progress_;
-  std::size_t done_ = 0, wanted_;
-  std::string text_;
-};
 
 /// A rectangle of heights as vertices, counted row by row from the south-west.
 class Net {

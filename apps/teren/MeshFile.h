@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 
 #include "teren/HeightMap.h"
 #include "teren/Result.h"
+
+#include "apps/files/RowWriter.h"
 
 namespace teren {
 
@@ -16,9 +17,6 @@ struct GroundPlace {
   double pitch = 64.0;        ///< [m] of the world
   double spacing = 2.0;       ///< [m] between the heights
 };
-
-/// Asked before each row of text, with how many of them are written; false stops the writing.
-using RowProgress = std::function<bool(std::size_t done, std::size_t wanted)>;
 
 /// Vertices in metres east and north of the south-west corner and above zero, z up; the corner's place in the
 /// world stands in a comment. Every quad is split by its south-west to north-east diagonal and seen
