@@ -1,6 +1,7 @@
 #include "generators/sand/CleanUp.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace teren {
@@ -9,7 +10,6 @@ namespace {
 constexpr double kParts = 65535.0;
 /// A removal and what gives its volume back move places by at most so many widths of the band.
 constexpr double kErrorPerBand = 2.5;
-constexpr std::size_t kChangesOfFlip = 4;  // two triangles go and two come
 
 /// How far the two diagonals of the quadrangle a, b, c, d (counter-clockwise, convex) are apart where they
 /// cross [m].
@@ -22,6 +22,49 @@ double foldOf(const SandSurface& surface, VertexId a, VertexId b, VertexId c, Ve
     return height(from) + part / whole * (height(to) - height(from));
   };
   return std::fabs(along(a, c, b, d) - along(b, d, a, c));
+}
+
+/// What lies on both sides of the edge from one vertex to another.
+struct Quadrangle {
+  VertexId left = kNoVertex;
+  VertexId right = kNoVertex;
+  Link ahead;   // the edge as a side of the triangle to the left
+  Link behind;  // and to the right
+};
+
+Quadrangle quadrangleAt(const Triangulation& mesh, VertexId a, VertexId b) {
+  Quadrangle found;
+  mesh.forEachCorner(a, [&](Link at) {
+    const std::array<VertexId, 3>& corners = mesh.corners(at.triangle());
+    const int after = following(at.side()), before = preceding(at.side());
+    if (corners[after] == b) {
+      found.left = corners[before];
+      found.ahead = Link(at.triangle(), before);
+    } else if (corners[before] == b) {
+      found.right = corners[after];
+      found.behind = Link(at.triangle(), after);
+    }
+  });
+  return found;
+}
+
+/// Whether, once the edge a b has flipped, the four edges around it stay.
+bool flipsAlone(const Triangulation& mesh, const Quadrangle& around) {
+  const auto stays = [&](Link edge, int side, VertexId newCorner) {
+    const std::array<VertexId, 3>& corners = mesh.corners(edge.triangle());
+    const VertexId from = corners[following(side)], to = corners[preceding(side)];
+    const TriangleId beyond = mesh.neighbour(edge.triangle(), side);
+    if (beyond == kNoTriangle || mesh.constraint(from, to)) return true;
+    for (const VertexId far : mesh.corners(beyond)) {
+      if (far == from || far == to) continue;
+      return !inCircle(mesh.point(from), mesh.point(to), mesh.point(newCorner), mesh.point(far));
+    }
+    return false;
+  };
+  const auto bothStay = [&](Link edge, VertexId newCorner) {
+    return stays(edge, following(edge.side()), newCorner) && stays(edge, preceding(edge.side()), newCorner);
+  };
+  return bothStay(around.ahead, around.right) && bothStay(around.behind, around.left);
 }
 
 }  // namespace
@@ -61,32 +104,34 @@ void CleanUp::dissolveAt(SandSurface& surface, Slides& slides, VertexId v, std::
   const bool closed = !mesh.isOnBorder(v);
   for (std::size_t i = 0; i < count; ++i) {
     if (!closed && (i == 0 || i + 1 == count)) continue;
-    const VertexId to = ring_[i], left = ring_[(i + 1) % count], right = ring_[(i + count - 1) % count];
+    const VertexId to = ring_[i];
     if (mesh.constraintsAt(to) == 0) continue;
     const auto id = mesh.constraint(v, to);
-    if (!id || *id >= kept || !mesh.isEdge(v, left) || !mesh.isEdge(v, right)) continue;
-    const bool flips = inCircle(mesh.point(v), mesh.point(to), mesh.point(left), mesh.point(right));
-    const double fold = flips ? foldOf(surface, v, right, to, left) : 0.0;
-    const double error =
-        kErrorPerBand * fold + std::max({carried(v), carried(to), carried(left), carried(right)});
-    if (flips && error > tolerance_) continue;
-    const std::uint32_t was = *id;
-    surface.unconstrain(v, to);
-    if (surface.lastChangeCount() != (flips ? kChangesOfFlip : 0)) {  // more than was judged has changed
-      surface.constrain(v, to, was);
-      const std::vector<VertexId> touched(surface.lastTouched().begin(), surface.lastTouched().end());
-      surface.settle(touched);
-      continue;
-    }
+    if (id && *id < kept) dissolve(surface, slides, v, to);
+  }
+}
+
+/// Dissolves the constrained edge between two vertices, where that moves no place too far.
+void CleanUp::dissolve(SandSurface& surface, Slides& slides, VertexId a, VertexId b) {
+  const Quadrangle around = quadrangleAt(surface.mesh(), a, b);
+  const auto place = [&](VertexId v) { return surface.mesh().point(v); };
+  if (!inCircle(place(a), place(around.right), place(b), place(around.left))) {
+    surface.unconstrain(a, b);
     ++count_.dissolved;
-    if (!flips) continue;
-    count_.largestError = std::max(count_.largestError, error);
-    const std::vector<VertexId> touched(surface.lastTouched().begin(), surface.lastTouched().end());
-    surface.settle(touched);
-    for (const VertexId n : touched) {
-      carry(n, std::max(error, carried(n)));
-      slides.addAround(surface, n);
-    }
+    return;
+  }
+  double error = 0.0;
+  for (const VertexId v : {a, b, around.left, around.right}) error = std::max(error, carried(v));
+  error += kErrorPerBand * foldOf(surface, a, around.right, b, around.left);
+  if (error > tolerance_ || !flipsAlone(surface.mesh(), around)) return;
+  surface.unconstrain(a, b);
+  ++count_.dissolved;
+  count_.largestError = std::max(count_.largestError, error);
+  const std::array<VertexId, 4> touched{a, around.right, b, around.left};
+  surface.settle(touched);
+  for (const VertexId v : touched) {
+    carry(v, std::max(error, carried(v)));
+    slides.addAround(surface, v);
   }
 }
 

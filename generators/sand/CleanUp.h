@@ -61,6 +61,7 @@ class CleanUp {
   friend class SandState;  // archives
 
   void dissolveAt(SandSurface& surface, Slides& slides, VertexId v, std::uint32_t kept);
+  void dissolve(SandSurface& surface, Slides& slides, VertexId a, VertexId b);
   void removeIfFlat(SandSurface& surface, Slides& slides, VertexId v);
   double bandAround(const SandSurface& surface, VertexId v);
   bool bearsLoose(const SandSurface& surface, VertexId v) const;

@@ -148,15 +148,21 @@ std::int64_t SandSurface::looseAt(LatticePoint p, TriangleId t) const noexcept {
   return static_cast<std::int64_t>(sum / orientation(a, b, c));
 }
 
+/// Adds a vertex on the surface, in triangle t, where none is.
+VertexId SandSurface::add(LatticePoint p, TriangleId t) {
+  const std::int64_t ticks = heightAt(p, t);
+  const std::int64_t loose = looseAt(p, t);
+  const VertexId v = mesh_.insert(p, metresFromTicks(ticks), t).vertex;
+  adopt(v, ticks, loose);
+  changedVertices_.add(v);
+  return v;
+}
+
 VertexId SandSurface::insert(LatticePoint p, TriangleId hint) {
   const Location place = mesh_.locate(p, hint);
   if (place.kind == Location::Kind::vertex) return mesh_.corners(place.triangle)[place.corner];
-  const std::int64_t ticks = heightAt(p, place.triangle);
-  const std::int64_t loose = looseAt(p, place.triangle);
   begin();
-  const VertexId v = mesh_.insert(p, metresFromTicks(ticks), place.triangle).vertex;
-  adopt(v, ticks, loose);
-  changedVertices_.add(v);
+  const VertexId v = add(p, place.triangle);
   finish({});
   return v;
 }
@@ -166,12 +172,14 @@ VertexId SandSurface::divide(VertexId a, VertexId b) {
   const LatticePoint p{(from.x + to.x) >> 1, (from.y + to.y) >> 1};
   if (mesh_.vertexAt(p, mesh_.triangleAt(a)) != kNoVertex) return kNoVertex;
   const auto id = mesh_.constraint(a, b);
-  if (id) unconstrain(a, b);  // it may pass half a step beside
-  const VertexId between = insert(p, mesh_.triangleAt(a));
+  begin();
+  if (id) mesh_.unconstrain(a, b);  // it may pass half a step beside
+  const VertexId between = add(p, mesh_.locate(p, mesh_.triangleAt(a)).triangle);
   if (id) {
-    constrain(a, between, *id);
-    constrain(between, b, *id);
+    mesh_.constrain(a, between, *id);
+    mesh_.constrain(between, b, *id);
   }
+  finish({});
   return between;
 }
 

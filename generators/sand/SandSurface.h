@@ -83,11 +83,11 @@ class SandSurface {
   /// half the heaviest's weight or at the old debt, whichever is more, however large that debt; only where a
   /// height comes to its limit more remains. Nothing without vertices.
   void settle(std::span<const VertexId> vertices);
-  /// The corners of the triangles that the last insertion, removal or (un)constraining took or made, that
-  /// remain.
+  /// The triangles that the last insertion, division, removal or (un)constraining took or made, in order; a
+  /// flip counts four, and one may come and go.
+  std::span<const TriangleChange> lastChanges() const noexcept { return changes_; }
+  /// Their corners that remain.
   std::span<const VertexId> lastTouched() const noexcept { return touched_; }
-  /// How many triangles that operation took or made; a flip counts four.
-  std::size_t lastChangeCount() const noexcept { return changes_.size(); }
 
   /// Vertices that rose, fell, came or went, and triangles that came, went, lie at such vertices, or of which
   /// a side became or ceased to be constrained, since clearChanges(). loosen() is not told.
@@ -117,6 +117,7 @@ class SandSurface {
   void adopt(VertexId v, std::int64_t ticks, std::int64_t loose);
   void adoptCrossings();
   void begin();
+  VertexId add(LatticePoint p, TriangleId t);
   void finish(const Gone& gone);
   std::int64_t looseAt(LatticePoint p, TriangleId t) const noexcept;
   void noteMoved(VertexId v);

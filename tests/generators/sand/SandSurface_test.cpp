@@ -184,6 +184,32 @@ TEST(SandSurface, DividesAConstrainedEdgeIntoConstrainedEdges) {
   EXPECT_EQ(surface.divide(a, beside), kNoVertex) << "there is no room between neighbours on the lattice";
 }
 
+TEST(SandSurface, TellsOfEveryTriangleThatADivisionChanged) {
+  int flipped = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SandSurface surface = scatteredSand(60, seed, 0.1, ripples);
+    RandomSequence random(seed);
+    const VertexId a = anyVertex(surface, random), b = anyVertex(surface, random);
+    if (a == b) continue;
+    surface.constrain(a, b, 3);
+    VertexId from = kNoVertex, to = kNoVertex;
+    surface.mesh().forEachConstraint([&](VertexId one, VertexId other, std::uint32_t) {
+      from = one;
+      to = other;
+    });
+    const SandSurface before = surface;
+    if (surface.divide(from, to) == kNoVertex) continue;
+    std::vector<bool> told(surface.mesh().triangleSlots(), false);
+    for (const TriangleChange& change : surface.lastChanges()) told[change.triangle] = true;
+    for (TriangleId t = 0; t < surface.mesh().triangleSlots(); ++t) {
+      const bool same = before.mesh().isTriangle(t) && before.mesh().corners(t) == surface.mesh().corners(t);
+      ASSERT_TRUE(same || told[t]) << t << ", seed " << seed;
+    }
+    flipped += surface.lastChanges().size() > 12 ? 1 : 0;
+  }
+  EXPECT_GT(flipped, 10) << "the constraints held nothing";
+}
+
 TEST(SandSurface, PutsCrossingsOnTheSurfaceInSlotsThatEqualPointsLeftFree) {
   constexpr std::int32_t kEnd = 1 << 20;
   const std::vector<LatticePoint> points = {{0, 0},
