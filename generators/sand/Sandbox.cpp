@@ -1,5 +1,6 @@
 #include "generators/sand/Sandbox.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace teren {
@@ -17,7 +18,12 @@ void Sandbox::setRepose(double dryAngle, double moisture) {
   settings_.dryAngle = dryAngle;
   settings_.moisture = moisture;
   slides_.setRepose(reposeOf(dryAngle, moisture));
+  loosenAll();
+}
+
+void Sandbox::loosenAll() {
   slides_.addAll(surface_);
+  push();
 }
 
 /// Passes on what a phase has changed: to the slides, to the clean-up, to whoever draws.
@@ -38,7 +44,10 @@ Result<StampReport> Sandbox::stamp(const ToolShape& tool, const StampPlace& plac
   for (const VertexId v : stamper_.rim()) cleanUp_.add(v);
   for (const VertexId v : stamper_.inside()) cleanUp_.add(v);
   Result<StampReport> report = stamper_.stamp(surface_, tool, place);
-  if (report) keptId_ = id;
+  if (report) {
+    keptId_ = id;
+    push();
+  }
   for (const VertexId v : stamper_.inside()) changedVertices_.add(v);  // may have been loosened, rims as well
   collectChanges(Phase::stamping);
   return report;
@@ -51,7 +60,12 @@ bool Sandbox::slide(std::uint64_t steps) {
 }
 
 void Sandbox::clean() {
+  if (removable_ == 0) return;
+  const bool rested = slides_.atRest();
+  const std::uint64_t before = cleanUp_.count().removed;
   cleanUp_.run(surface_, slides_, keptId_);
+  removable_ -= std::min<std::size_t>(removable_, cleanUp_.count().removed - before);
+  if (rested && !slides_.atRest()) removable_ /= 2;
   collectChanges(Phase::cleaning);
 }
 

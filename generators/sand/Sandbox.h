@@ -1,6 +1,7 @@
 // Sand to play with: stamps, slides and clean-up taken together, one iteration at a time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "teren/Result.h"
@@ -22,9 +23,15 @@ struct SandSettings {
 };
 
 /// One iteration: any number of stamps, then slides, then clean-up; then whoever draws asks for changes().
-/// What clean-up unsettles slides in the next iteration. What is computed depends on the calls and their
-/// numbers of steps alone, so it is the same on every machine. Costs are bounded by what is touched, not by
-/// the mesh. One thread; whoever draws in another one copies what changed.
+/// What clean-up unsettles slides in the next iteration, which may divide edges that clean-up joined. So that
+/// this ends, the vertices that clean-up may take after a push (a stamp, another angle of repose,
+/// loosenAll()) are counted: as many as there were then, and half of what is left each time that it unsettles
+/// sand at rest. So any game comes to rest in log2(vertices) + 2 iterations of unlimited steps; what is left
+/// to clean waits for the next push.
+///
+/// What is computed depends on the calls and their numbers of steps alone, so it is the same on every
+/// machine. Costs are bounded by what is touched, not by the mesh. One thread; whoever draws in another one
+/// copies what changed.
 class Sandbox {
  public:
   Sandbox(SandSurface surface, const SandSettings& settings);
@@ -37,13 +44,14 @@ class Sandbox {
   /// Other sand from now on; all faces are looked at again, which is O(n).
   void setRepose(double dryAngle, double moisture);
   /// Looks at all faces again, as a new sandbox whose ground may be steep needs. O(n).
-  void loosenAll() { slides_.addAll(surface_); }
+  void loosenAll();
 
   /// Presses a tool in; Stamper::stamp.
   Result<StampReport> stamp(const ToolShape& tool, const StampPlace& place);
   /// Lets steep faces slide, at most so many steps. True: all is at rest.
   bool slide(std::uint64_t steps);
-  /// Removes flat vertices among those that have moved since the last clean-up.
+  /// Removes flat vertices among those that have moved since the last clean-up; nothing where it has taken
+  /// its share since the last push.
   void clean();
   /// slide(steps) and clean(). True: all is at rest.
   bool iterate(std::uint64_t steps);
@@ -61,6 +69,7 @@ class Sandbox {
   friend class SandState;  // archives
 
   enum class Phase { stamping, sliding, cleaning };
+  void push() noexcept { removable_ = surface_.mesh().vertexCount(); }
   void collectChanges(Phase phase);
 
   SandSettings settings_;
@@ -68,7 +77,8 @@ class Sandbox {
   Slides slides_;
   CleanUp cleanUp_;
   Stamper stamper_;
-  std::uint32_t keptId_ = 0;  // constraints of the last stamp stay until the next
+  std::uint32_t keptId_ = 0;   // constraints of the last stamp stay until the next
+  std::size_t removable_ = 0;  // so many vertices clean-up may still take
   ChangeList changedVertices_;
   ChangeList changedTriangles_;
 };

@@ -1,6 +1,7 @@
 #include "generators/sand/Slides.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace teren {
@@ -11,6 +12,30 @@ constexpr double kShortestLimit = 8.0;  // [steps]
 double squaredLength(LatticePoint a, LatticePoint b) noexcept {
   const double x = b.x - a.x, y = b.y - a.y;
   return x * x + y * y;
+}
+
+/// The edge a b, or a long one beside it that stays and in whose circle the middle of a b would lie.
+std::pair<VertexId, VertexId> edgeToDivide(const SandSurface& surface, VertexId a, VertexId b, double limit) {
+  const Triangulation& mesh = surface.mesh();
+  const LatticePoint from = mesh.point(a), to = mesh.point(b);
+  const LatticePoint p{(from.x + to.x) >> 1, (from.y + to.y) >> 1};
+  std::pair<VertexId, VertexId> found{a, b};
+  mesh.forEachCorner(a, [&](Link at) {
+    const std::array<VertexId, 3>& corners = mesh.corners(at.triangle());
+    const int after = following(at.side()), before = preceding(at.side());
+    if (corners[after] != b && corners[before] != b) return;
+    for (int i = 0; i < 3; ++i) {
+      const VertexId c = corners[following(i)], d = corners[preceding(i)];
+      if ((c == a && d == b) || (c == b && d == a)) continue;
+      const LatticePoint one = mesh.point(c), other = mesh.point(d);
+      if (squaredLength(one, other) <= limit * limit) continue;
+      const double dot = static_cast<double>(one.x - p.x) * (other.x - p.x) +
+                         static_cast<double>(one.y - p.y) * (other.y - p.y);
+      if (dot >= 0.0) continue;
+      if (mesh.neighbour(at.triangle(), i) == kNoTriangle || mesh.constraint(c, d)) found = {c, d};
+    }
+  });
+  return found;
 }
 
 }  // namespace
@@ -47,11 +72,10 @@ void Slides::look(SandSurface& surface, TriangleId t) {
   if (!(slope > repose_.start)) return;
   const auto bears = [](const FaceCorner& corner) { return corner.loose > kBareTicks; };
   if (std::none_of(face.begin(), face.end(), bears)) return;
-  if (slope > repose_.divide && divideEdges(surface, t, face)) return;
   const std::array<VertexId, 3> corners = surface.mesh().corners(t);
   for (std::size_t i = 0; i < 3; ++i) face[i].weight = surface.weight(corners[i]);
   const auto move = slideFace(face, repose_, surface.step(), surface.ledger());
-  if (!move) return;
+  if (!move || (slope > repose_.divide && divideEdges(surface, t, face))) return;
   surface.apply(t, face, *move);
   ++count_.moves;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -83,10 +107,11 @@ bool Slides::divideEdgesAt(SandSurface& surface, VertexId v) {
   bool divided = false;
   for (const VertexId n : far_) {
     if (!surface.mesh().isEdge(v, n)) continue;  // flipped away by one divided before
-    const VertexId between = surface.divide(v, n);
+    const auto [a, b] = edgeToDivide(surface, v, n, limit);
+    const VertexId between = surface.divide(a, b);
     if (between == kNoVertex) continue;
     surface.settle({&between, 1});
-    addAround(surface, between);
+    for (const TriangleChange& change : surface.lastChanges()) add(change.triangle);
     ++count_.splits;
     divided = true;
   }

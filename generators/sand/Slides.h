@@ -27,6 +27,9 @@ struct SlideCount {
 /// the middle first, at a vertex on the surface; the volume that the flips around it change is given back by
 /// that vertex. So a scarp eats into coarse ground as far as sand really slides, through edges of which each
 /// is half the next, and a wide flat face is not tilted as a whole. Edges only get shorter, so that ends.
+/// Where the middle would lie in the circle over a long edge that stays, the border's or a constrained one,
+/// that is divided instead (Ruppert 1995): otherwise halves of halves would line it with slivers, whose
+/// slopes need a hundred times as many steps to come to rest.
 ///
 /// It comes to rest: every move lowers the energy of its face (FaceSlide.h), and nothing raises it but
 /// vertices added, which are finitely many. Solid ground is never cut. About 0.3 us a step, 1 us a move; the

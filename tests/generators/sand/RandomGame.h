@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "generators/numbers/Tangent.h"
 #include "generators/sand/Sandbox.h"
 #include "tests/generators/sand/Heaps.h"
 
 namespace teren {
+
+/// With more a game is over; the next one is on other ground.
+inline constexpr std::size_t kMostVertices = 2'500;
 
 inline std::vector<ToolShape> toolbox() {
   const std::vector<ToolPoint> hook{{-0.04, -0.04}, {0.04, -0.04}, {0.04, 0.04},  {-0.04, 0.04},
@@ -18,9 +22,6 @@ inline std::vector<ToolShape> toolbox() {
           *ToolShape::rake(0.16, 0.04, 4), *ToolShape::wedge(0.08, 0.1),    *ToolShape::ball(0.1, 0.06),
           *ToolShape::polygon(hook, 0.07)};
 }
-
-/// With more a game is over; the next one is on other ground.
-inline constexpr std::size_t kMostVertices = 2'500;
 
 /// One game and its own account of the volume.
 class RandomGame {
@@ -50,10 +51,25 @@ class RandomGame {
         sandbox_.clean();
         break;
       default:
-        if (random_.next() % 16 == 0)
-          sandbox_.setRepose(20.0 + 20.0 * uniform(random_.next()), uniform(random_.next()));
+        if (random_.next() % 16 == 0) {
+          const double angle = 20.0 + 20.0 * uniform(random_.next()), moisture = uniform(random_.next());
+          angle_ = angle + kMoistureGain * moisture;
+          sandbox_.setRepose(angle, moisture);
+        }
         sandbox_.forgetChanges();
     }
+  }
+
+  /// Iterations until all is at rest, at most so many.
+  int iterationsToRest(int most) {
+    for (int n = 1; n <= most; ++n) {
+      if (sandbox_.iterate(~std::uint64_t{0})) return n;
+    }
+    return most + 1;
+  }
+  /// By how much the steepest loose face is steeper than may be at rest; negative where it is not [tangent].
+  double excess() const {
+    return steepestLooseSlope(sandbox_.surface()) - tangentOfDegrees(angle_ + kReposeTolerance);
   }
 
   /// What is wrong, or nothing.
@@ -103,6 +119,7 @@ class RandomGame {
   RandomSequence random_;
   Sandbox sandbox_;
   SixfoldVolume all_ = 0;
+  double angle_ = kDryRepose;  // [degree] of repose
 };
 
 }  // namespace teren

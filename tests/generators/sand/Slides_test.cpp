@@ -1,5 +1,7 @@
 #include "generators/sand/Slides.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <vector>
@@ -100,6 +102,35 @@ TEST(Slides, DivideLongEdgesWhereSandSlidesAndNowhereElse) {
   EXPECT_EQ(surface.height(2), 0) << "the far corner of the box moved";
   const Result<void> sound = surface.validate();
   EXPECT_TRUE(sound) << sound.error().message;
+}
+
+/// The least height of a triangle over its longest side [steps].
+double narrowestFace(const SandSurface& surface) {
+  double least = kNever;
+  for (TriangleId t = 0; t < surface.mesh().triangleSlots(); ++t) {
+    if (!surface.mesh().isTriangle(t)) continue;
+    const Face face = surface.unweighedFace(t);
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const LatticePoint a = face[i].place, b = face[(i + 1) % 3].place;
+      const double x = b.x - a.x, y = b.y - a.y;
+      longest = std::max(longest, std::sqrt(x * x + y * y));
+    }
+    const auto area = orientation(face[0].place, face[1].place, face[2].place);
+    least = std::min(least, static_cast<double>(area) / longest);
+  }
+  return least;
+}
+
+TEST(Slides, DivideWithoutSliversBesideWhatStays) {
+  SandSurface surface(boxOf(20, 0x1p-20), 0.0, 10.0);
+  surface.raise(surface.insert({1 << 18, 1 << 12}), ticksFromMetres(0.3));
+  Slides slides(reposeOf(), 0.05);
+  slides.addAll(surface);
+  ASSERT_TRUE(slides.advance(surface, 1'000'000));
+  EXPECT_GT(slides.count().splits, 50U);
+  EXPECT_GT(narrowestFace(surface), 512.0) << "an eighth of what there was";
+  EXPECT_LE(steepestLooseSlope(surface), kSteepestAllowed);
 }
 
 }  // namespace
