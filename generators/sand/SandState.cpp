@@ -40,6 +40,7 @@ SandState::Numbers SandState::numbersOf(const Sandbox& sandbox) {
   numbers.slides = sandbox.slides_.count_;
   numbers.cleanUp = sandbox.cleanUp_.count_;
   numbers.slidingPosition = sandbox.slides_.position_;
+  numbers.removable = sandbox.removable_;
   numbers.freeVertices = mesh.freeVertices_;
   numbers.freeTriangles = mesh.freeTriangles_;
   numbers.constraints = surface.mesh_.table_.used_;
@@ -63,6 +64,7 @@ void SandState::assignNumbers(Sandbox& sandbox, const Numbers& numbers) {
   sandbox.slides_.count_ = numbers.slides;
   sandbox.cleanUp_.count_ = numbers.cleanUp;
   sandbox.slides_.position_ = numbers.slidingPosition;
+  sandbox.removable_ = numbers.removable;
   mesh.freeVertices_ = numbers.freeVertices;
   mesh.freeTriangles_ = numbers.freeTriangles;
   surface.mesh_.table_.used_ = numbers.constraints;

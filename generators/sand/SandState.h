@@ -68,13 +68,14 @@ class SandState {
     SandSettings settings;
     SlideCount slides;
     CleanUpCount cleanUp;
-    std::uint64_t slidingPosition = 0;
+    std::uint64_t slidingPosition = 0, removable = 0;
     std::uint64_t freeVertices = 0, freeTriangles = 0, constraints = 0;
     std::uint32_t freeVertex = 0, freeTriangle = 0;
     std::int32_t cellShift = 0;
     std::uint32_t nextId = 0, near = 0, keptId = 0;
+    std::uint64_t unused = 0;  // up to the alignment
   };
-  static_assert(sizeof(Numbers) == 240 && sizeof(SandSettings) == 56, "a new number is a new format");
+  static_assert(sizeof(Numbers) == 256 && sizeof(SandSettings) == 56, "a new number is a new format");
 
   template <class Self, class Visitor>
   static void forEachArray(Self& sandbox, Visitor&& visit);
