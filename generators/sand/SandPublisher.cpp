@@ -50,23 +50,37 @@ std::array<std::int16_t, 2> normalAt(const SandSurface& surface, VertexId v) {
   return packed(sum);
 }
 
-SandVertex vertexOf(const SandSurface& surface, VertexId v) {
+/// A vertex but for its normal.
+SandVertex plainVertex(const SandSurface& surface, VertexId v) {
   if (!surface.mesh().isVertex(v)) return {};
-  return {surface.mesh().point(v), static_cast<float>(surface.mesh().height(v)),
-          static_cast<float>(metresFromTicks(surface.loose(v))), normalAt(surface, v)};
+  return {surface.mesh().point(v),
+          static_cast<float>(surface.mesh().height(v)),
+          static_cast<float>(metresFromTicks(surface.loose(v))),
+          {}};
 }
 
-void copyTriangle(const Triangulation& mesh, TriangleId t, SandTrianglePage& page) {
-  const std::size_t slot = t % SandTrianglePage::kSlots;
-  page.corners[slot] = {0, 0, 0};
-  page.flags[slot] = 0;
-  if (!mesh.isTriangle(t)) return;
-  page.corners[slot] = mesh.corners(t);
-  page.flags[slot] = SandTrianglePage::kIsThere;
+/// A triangle as a page of them has it.
+struct Copy {
+  std::array<VertexId, 3> corners{0, 0, 0};
+  std::uint8_t flags = 0;
+  friend bool operator==(const Copy&, const Copy&) = default;
+};
+
+Copy copyOf(const Triangulation& mesh, TriangleId t) {
+  if (!mesh.isTriangle(t)) return {};
+  Copy copy{mesh.corners(t), SandTrianglePage::kIsThere};
   for (int i = 0; i < 3; ++i) {
-    if (mesh.isConstrained(t, i)) page.flags[slot] |= static_cast<std::uint8_t>(1 << i);
+    if (mesh.isConstrained(t, i)) copy.flags |= static_cast<std::uint8_t>(1 << i);
   }
+  return copy;
 }
+
+/// The page and the place in it of a slot.
+template <class Page>
+struct At {
+  explicit At(std::size_t id) noexcept : page(id / Page::kSlots), slot(id % Page::kSlots) {}
+  std::size_t page, slot;
+};
 
 /// How many pages so many slots need.
 template <class Page>
@@ -74,28 +88,13 @@ std::size_t pagesFor(std::size_t slots) noexcept {
   return (slots + Page::kSlots - 1) / Page::kSlots;
 }
 
-/// Writes a page unless that is what is there.
-template <class Page>
-void replace(PageEditor<Page>& editor, std::size_t i, const Page& page) {
-  if (i >= editor.table().size() || !(editor.table()[i] == page)) editor.edit(i) = page;
-}
-
 }  // namespace
 
 std::shared_ptr<const SandSnapshot> SandPublisher::publish(Sandbox& sandbox) {
   if (!published_) return publishAll(sandbox);
-  const SandSurface& surface = sandbox.surface();
-  const Triangulation& mesh = surface.mesh();
-  for (const TriangleId t : sandbox.changedTriangles().ids()) {
-    copyTriangle(mesh, t, triangles_.edit(t / SandTrianglePage::kSlots));
-    if (!mesh.isTriangle(t)) continue;
-    for (const VertexId v : mesh.corners(t)) refreshed_.add(v);
-  }
+  const Triangulation& mesh = sandbox.surface().mesh();
+  for (const TriangleId t : sandbox.changedTriangles().ids()) take(mesh, t);
   for (const VertexId v : sandbox.changedVertices().ids()) refreshed_.add(v);
-  for (const VertexId v : refreshed_.ids()) {
-    vertices_.edit(v / SandVertexPage::kSlots).vertices[v % SandVertexPage::kSlots] = vertexOf(surface, v);
-  }
-  refreshed_.clear();
   return finish(sandbox);
 }
 
@@ -107,24 +106,40 @@ std::shared_ptr<const SandSnapshot> SandPublisher::publishAll(Sandbox& sandbox) 
   vertices_.shrink(vertexPages);
   triangles_.shrink(trianglePages);
   bounds_.shrink(pagesFor<SandBoundsPage>(trianglePages));
-  for (std::size_t i = 0; i < vertexPages; ++i) {
-    SandVertexPage page;
-    for (std::size_t k = 0; k < SandVertexPage::kSlots; ++k) {
-      page.vertices[k] = vertexOf(surface, static_cast<VertexId>(i * SandVertexPage::kSlots + k));
+  for (TriangleId t = 0; t < trianglePages * SandTrianglePage::kSlots; ++t) {
+    const At<SandTrianglePage> at(t);
+    if (at.page < triangles_.table().size()) {
+      const SandTrianglePage& page = triangles_.table()[at.page];
+      if (Copy{page.corners[at.slot], page.flags[at.slot]} == copyOf(mesh, t)) continue;
     }
-    replace(vertices_, i, page);
+    take(mesh, t);
   }
-  for (std::size_t i = 0; i < trianglePages; ++i) {
-    SandTrianglePage page;
-    for (std::size_t k = 0; k < SandTrianglePage::kSlots; ++k) {
-      copyTriangle(mesh, static_cast<TriangleId>(i * SandTrianglePage::kSlots + k), page);
+  for (VertexId v = 0; v < vertexPages * SandVertexPage::kSlots; ++v) {
+    const At<SandVertexPage> at(v);
+    if (at.page < vertices_.table().size()) {
+      SandVertex last = vertices_.table()[at.page].vertices[at.slot];
+      last.normal = {};
+      if (last == plainVertex(surface, v)) continue;
     }
-    replace(triangles_, i, page);
+    refreshed_.add(v);
+    if (!published_ || !mesh.isVertex(v)) continue;
+    mesh.forEachCorner(v, [&](Link corner) { take(mesh, corner.triangle()); });
   }
-  for (std::size_t i = 0; i < trianglePages; ++i)
-    bound(i);  // heights may have changed where triangles did not
   published_ = true;
-  return finish(sandbox);
+  std::shared_ptr<const SandSnapshot> snapshot = finish(sandbox);
+  refreshed_ = {};  // as long as the mesh perhaps
+  return snapshot;
+}
+
+/// Copies a triangle; its corners may look different.
+void SandPublisher::take(const Triangulation& mesh, TriangleId t) {
+  const At<SandTrianglePage> at(t);
+  SandTrianglePage& page = triangles_.edit(at.page);
+  const Copy copy = copyOf(mesh, t);
+  page.corners[at.slot] = copy.corners;
+  page.flags[at.slot] = copy.flags;
+  if (copy.flags == 0) return;
+  for (const VertexId v : copy.corners) refreshed_.add(v);
 }
 
 /// Takes the bounds of a page's triangles anew, and, where they changed, those of all pages beside it.
@@ -146,8 +161,16 @@ void SandPublisher::bound(std::size_t trianglePage) {
 }
 
 std::shared_ptr<const SandSnapshot> SandPublisher::finish(Sandbox& sandbox) {
+  const SandSurface& surface = sandbox.surface();
+  const Triangulation& mesh = surface.mesh();
+  for (const VertexId v : refreshed_.ids()) {
+    const At<SandVertexPage> at(v);
+    SandVertex& copy = vertices_.edit(at.page).vertices[at.slot];
+    copy = plainVertex(surface, v);
+    if (copy.isThere()) copy.normal = normalAt(surface, v);
+  }
+  refreshed_.clear();
   for (const std::size_t page : triangles_.edited()) bound(page);
-  const Triangulation& mesh = sandbox.surface().mesh();
   auto snapshot = std::make_shared<SandSnapshot>();
   snapshot->frame_ = mesh.frame();
   snapshot->vertexCount_ = mesh.vertexCount();

@@ -169,6 +169,16 @@ TEST(SandSnapshot, EqualsAnotherSurfaceThatHasTakenThePlaceOfTheFirst) {
   ASSERT_EQ(difference(game.surface(), *game.publish()), "");
 }
 
+TEST(SandSnapshot, EqualsSandThatHasBeenPutBack) {
+  Game game(86, 3'000);
+  const Sandbox before = game.sandbox();
+  game.publish();
+  game.sandbox().slide(20'000);
+  ASSERT_NE(difference(before.surface(), *game.publish()), "");
+  game.sandbox() = before;
+  ASSERT_EQ(difference(game.surface(), *game.publishAll()), "");
+}
+
 TEST(SandSnapshot, SharesAllPagesWhereNothingChanged) {
   Game game(79, 20'000);
   const Shared first = game.publish();
