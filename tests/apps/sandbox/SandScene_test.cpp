@@ -301,16 +301,21 @@ TEST(SandScene, UploadsOnlyPagesThatChanged) {
 }
 
 TEST(SandScene, ShowsTheSameInABufferThatHasGrownAndInANewOne) {
-  Beach beach(300);
+  Beach beach(3'000);
   OffscreenView view(120, 120);
-  beach.lookDown(0.5, 0.5, 0.9);
+  beach.lookDown(0.5, 0.5, 1.2);
   view.draw(beach.root, kMagenta);
   const std::size_t small = beach.scene.bufferBytes();
-  for (int n = 0; n < 12; ++n) {
-    beach.dig();
+  std::size_t before = 0;
+  for (int n = 0; n < 400 && beach.scene.bufferBytes() == small; ++n) {
+    const double x = 0.8 + 0.01 * (n % 12), y = 0.8 + 0.01 * (n / 12 % 12);
+    ASSERT_TRUE(beach.sandbox.stamp(*ToolShape::disc(0.02, 0.01, 64), {x, y, 0.0}));
+    beach.show();
+    before = beach.scene.uploadedBytes();
     view.draw(beach.root, kMagenta);
   }
-  EXPECT_GT(beach.scene.bufferBytes(), small);
+  ASSERT_GT(beach.scene.bufferBytes(), small);
+  EXPECT_GT(beach.scene.uploadedBytes() - before, std::size_t{3'000} * 20) << "all vertices again";
   const QImage grown = view.picture(beach.root, kMagenta);
   OffscreenView other(120, 120);
   EXPECT_EQ(grown, other.picture(beach.root, kMagenta));
