@@ -100,6 +100,24 @@ TEST(Picture, ShowsWhatIsNotUploadedYetAllTheSame) {
   EXPECT_EQ(first, last);
 }
 
+TEST(Picture, TheGroundsTextureStaysInItsPlaceUnderAMovingEyeAndRepeatsAfter1024Samples) {
+  const Stage stage;
+  stage.terrain->waterLevel = -2e6F;
+  stage.terrain->viewDistance = 500.0F;
+  stage.terrain->setScene(makeScene({.side = 16, .intervals = 128, .spacing = 0.5}));
+  OffscreenView view(64, 64);
+  const auto at = [&](float metres) {
+    stage.look(SbVec3f(100.0F + metres, 100.0F + metres, 40.0F), 0.0, -90.0);
+    return view.picture(stage.root, kMagenta);
+  };
+  at(0.0F);  // uploads
+  const QImage here = at(0.0F);
+  ASSERT_EQ(backgroundPixels(here), 0);
+  for (const float metres : {0.5F, 1.0F, 150.0F})
+    EXPECT_NE(at(metres), here) << "it moves along with the eye";
+  EXPECT_EQ(at(512.0F), here);
+}
+
 TEST(Picture, ShowsTheSeaWhereItsBedIsOutsideTheView) {
   const Stage stage;
   stage.terrain->waterLevel = 0.0F;
