@@ -3,8 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <ostream>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Inventor/SbVec3d.h>
@@ -41,7 +44,7 @@ struct Pixel {
 /// The corners of all triangles, in the order they are drawn, as OpenGL places them in the window: it is told
 /// to hand them out instead of filling them.
 std::vector<Pixel> cornersDrawn(OffscreenView& view, SoNode* root) {
-  std::vector<float> tokens(4096);
+  std::vector<float> tokens(16384);
   glFeedbackBuffer(static_cast<GLsizei>(tokens.size()), GL_2D, tokens.data());
   glRenderMode(GL_FEEDBACK);
   view.draw(root, kMagenta);
@@ -205,6 +208,45 @@ TEST_P(Precision, OfEveryVertexIsAFractionOfAPixelWhereverTheCameraMoves) {
   RecordProperty("strayed_millipixels", std::to_string(1000.0 * strayed.most));
   EXPECT_GT(strayed.corners, 9000);
   EXPECT_LT(strayed.most, kMostStrayed) << "of a vertex " << strayed.distance << " m away";
+}
+
+/// How many places on the screen the corners of hand-made ground have, over some random looks, beyond the one
+/// that each sample should have.
+int placesTooMany(std::uint64_t seed) {
+  constexpr int kLooks = 200, kVertices = 17;  // along a side of the ground
+  const std::int64_t far = (std::int64_t{1} << 40) + 400;
+  const double spacing = 0.7;
+  const Stage stage;
+  stage.terrain->waterLevel = -2e6F;
+  stage.terrain->origin =
+      SbVec3d(static_cast<double>(far) * spacing, static_cast<double>(-far) * spacing, 0.0);
+  stage.terrain->setScene(
+      makeScene({.side = 4, .intervals = 4, .column = far, .row = -far, .spacing = spacing}));
+  OffscreenView view(kWidth, kHeight);
+  view.draw(stage.root, kMagenta);
+  RandomSequence random(seed);
+  int more = 0;
+  for (int look = 0; look < kLooks; ++look) {
+    stage.look(
+        SbVec3f(static_cast<float>(uniform(random, 5.0, 6.0)), static_cast<float>(uniform(random, 5.0, 6.0)),
+                static_cast<float>(uniform(random, 30.0, 36.0))),
+        uniform(random, 0.0, 360.0), uniform(random, -90.0, -85.0));
+    std::set<std::pair<long double, long double>> places;
+    for (const Pixel& corner : cornersDrawn(view, stage.root)) places.emplace(corner.x, corner.y);
+    EXPECT_GE(places.size(), std::size_t{kVertices * kVertices}) << "look " << look;
+    more += static_cast<int>(places.size()) - kVertices * kVertices;
+  }
+  return more;
+}
+
+TEST(SharedVertices, OfNeighbouringMeshesAreInOnePlaceToTheLastBit) {
+  EXPECT_EQ(placesTooMany(62), 0);
+}
+
+TEST(SharedVertices, OfNeighbouringMeshesAreInOnePlaceWithoutShadersToo) {
+  setenv("TEREN_NO_SHADERS", "1", 1);
+  EXPECT_EQ(placesTooMany(63), 0);
+  unsetenv("TEREN_NO_SHADERS");
 }
 
 INSTANTIATE_TEST_SUITE_P(
