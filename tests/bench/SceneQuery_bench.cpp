@@ -1,0 +1,190 @@
+// Heights on the drawn ground, many places at a time, beside one place at a time, beside the plainest way,
+// and beside a look at every triangle. Repetitions are interleaved at random; the ratios of the medians come
+// last.
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "teren/Hash.h"
+#include "teren/SceneQuery.h"
+
+#include "tests/bench/MedianReporter.h"
+#include "tests/engine/stream/PatchGround.h"
+#include "tests/engine/stream/PatchworkScene.h"
+
+namespace teren {
+namespace {
+
+constexpr int kIntervals = 32;
+constexpr double kSpacing = 2.0;
+constexpr std::size_t kPlaces = std::size_t{1} << 16;
+/// [m] Half the side of the ground asked.
+constexpr double kReach = 4000.0;
+
+float hills(std::int64_t column, std::int64_t row) {
+  const double x = static_cast<double>(column), y = static_cast<double>(row);
+  return static_cast<float>(60.0 * std::sin(0.011 * x) * std::cos(0.013 * y) +
+                            5.0 * std::sin(0.1 * x + 0.13 * y));
+}
+
+/// 8 km of ground, finer towards the middle: levels 0 to 3, about 1,000 nodes.
+void divide(Patchwork& patchwork, const PatchworkNode& node) {
+  const std::int64_t side = patchwork.side(node), half = side / 2;
+  const double away = std::max(std::fabs(static_cast<double>(node.west + half)),
+                               std::fabs(static_cast<double>(node.south + half)));
+  if (node.level == 0 || away > 1.6 * static_cast<double>(side)) return patchwork.add(node);
+  for (const std::int64_t y : {std::int64_t{0}, half}) {
+    for (const std::int64_t x : {std::int64_t{0}, half}) {
+      divide(patchwork, PatchworkNode{node.west + x, node.south + y, node.level - 1});
+    }
+  }
+}
+
+std::shared_ptr<const Scene> mixedScene() {
+  Patchwork patchwork(kIntervals, kSpacing, hills);
+  for (const std::int64_t x : {-2048, 0}) {
+    for (const std::int64_t y : {-2048, 0}) divide(patchwork, PatchworkNode{x, y, 6});
+  }
+  return patchwork.scene();
+}
+
+/// 8 km of one level.
+std::shared_ptr<const Scene> evenScene(int level) {
+  Patchwork patchwork(kIntervals, kSpacing, hills);
+  const std::int64_t side = std::int64_t{kIntervals} << level, nodes = 4096 / side;
+  patchwork.addEven({-2048, -2048, level}, static_cast<int>(nodes), static_cast<int>(nodes));
+  return patchwork.scene();
+}
+
+std::vector<Position> scattered() {
+  Dice dice(1);
+  std::vector<Position> places;
+  while (places.size() < kPlaces) {
+    places.push_back(*Position::fromMetres(dice.between(-kReach, kReach), dice.between(-kReach, kReach),
+                                           kIntervals * kSpacing));
+  }
+  return places;
+}
+
+/// 256 x 256 places half a metre apart, row by row.
+std::vector<Position> raster() {
+  std::vector<Position> places;
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    places.push_back(*Position::fromMetres(0.5 * static_cast<double>(k % 256),
+                                           0.5 * static_cast<double>(k / 256), kIntervals * kSpacing));
+  }
+  return places;
+}
+
+void batched(benchmark::State& state, const std::shared_ptr<const Scene>& scene,
+             const std::vector<Position>& places) {
+  const SceneQuery query(scene, kIntervals);
+  std::vector<DrawnPoint> answers(places.size());
+  for (auto _ : state) {
+    query.points(places, answers);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(places.size()));
+}
+
+void single(benchmark::State& state, const std::shared_ptr<const Scene>& scene,
+            const std::vector<Position>& places) {
+  const SceneQuery query(scene, kIntervals);
+  std::vector<DrawnPoint> answers(places.size());
+  for (auto _ : state) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      query.points({&places[k], 1}, {&answers[k], 1});
+      benchmark::ClobberMemory();
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(places.size()));
+}
+
+/// What a program would write that has nothing but the scene: every mesh whose rectangle holds the place,
+/// every triangle of those. Of the first 64 places.
+void everyMesh(benchmark::State& state, const std::shared_ptr<const Scene>& scene,
+               const std::vector<Position>& places) {
+  for (auto _ : state) {
+    for (std::size_t k = 0; k < 64; ++k) {
+      const double x = places[k].x(kIntervals * kSpacing) / kSpacing,
+                   y = places[k].y(kIntervals * kSpacing) / kSpacing;
+      double height = 0.0;
+      for (const auto& mesh : scene->meshes()) {
+        const double step = static_cast<double>(std::int64_t{1} << mesh->level);
+        const double column = (x - static_cast<double>(mesh->originColumn)) / step;
+        const double row = (y - static_cast<double>(mesh->originRow)) / step;
+        if (column < 0.0 || row < 0.0 || column > mesh->columns || row > mesh->rows) continue;
+        for (std::size_t at = 0; at < mesh->indices->size(); at += 3) {
+          const SurfaceVertex& a = mesh->vertices[(*mesh->indices)[at]];
+          const SurfaceVertex& b = mesh->vertices[(*mesh->indices)[at + 1]];
+          const SurfaceVertex& c = mesh->vertices[(*mesh->indices)[at + 2]];
+          const auto side = [&](const SurfaceVertex& p, const SurfaceVertex& q) {
+            return (p.column - column) * (q.row - row) - (q.column - column) * (p.row - row);
+          };
+          const double u = side(b, c), v = side(c, a), w = side(a, b);
+          if (u < 0.0 || v < 0.0 || w < 0.0) continue;
+          height = (u * static_cast<double>(a.height) + v * static_cast<double>(b.height) +
+                    w * static_cast<double>(c.height)) /
+                   (u + v + w);
+        }
+      }
+      benchmark::DoNotOptimize(height);
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * 64);
+}
+
+/// Making the query of a snapshot, from nothing and from that of the snapshot before.
+void make(benchmark::State& state, const std::shared_ptr<const Scene>& scene, bool again) {
+  const SceneQuery before(scene, kIntervals);
+  for (auto _ : state) {
+    const SceneQuery query(scene, kIntervals, again ? &before : nullptr);
+    benchmark::DoNotOptimize(query.bytes());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene->meshes().size()));
+}
+
+int runAll(int argc, char** argv) {
+  if (!initializeRepeated(argc, argv)) return 2;
+  const auto mixed = mixedScene(), even = evenScene(2);
+  const std::vector<Position> everywhere = scattered(), rows = raster();
+  for (const auto& [name, scene] : {std::pair{"mixed", mixed}, {"even", even}}) {
+    const auto add = [&, scene = scene](const std::string& what, auto&& work) {
+      benchmark::RegisterBenchmark((what + "/" + name).c_str(), std::forward<decltype(work)>(work))
+          ->Unit(benchmark::kMicrosecond);
+    };
+    std::size_t bytes = 0;
+    for (const auto& mesh : scene->meshes()) bytes += mesh->bytes();
+    std::printf("%s: %zu meshes, %zu triangles, %zu bytes; the query has %zu\n", name, scene->meshes().size(),
+                scene->triangles(), bytes, SceneQuery(scene, kIntervals).bytes());
+    add("scattered", [&, scene = scene](benchmark::State& state) { batched(state, scene, everywhere); });
+    add("raster", [&, scene = scene](benchmark::State& state) { batched(state, scene, rows); });
+    add("single", [&, scene = scene](benchmark::State& state) { single(state, scene, everywhere); });
+    add("every-mesh", [&, scene = scene](benchmark::State& state) { everyMesh(state, scene, everywhere); });
+    add("make", [&, scene = scene](benchmark::State& state) { make(state, scene, false); });
+    add("make-again", [&, scene = scene](benchmark::State& state) { make(state, scene, true); });
+  }
+  MedianReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  const double places = static_cast<double>(kPlaces);
+  for (const char* name : {"/mixed", "/even"}) {
+    std::printf("a place, ns%s: scattered %.1f, raster %.1f, single %.1f, every mesh %.0f\n", name,
+                1e3 * reporter.median(std::string("scattered") + name) / places,
+                1e3 * reporter.median(std::string("raster") + name) / places,
+                1e3 * reporter.median(std::string("single") + name) / places,
+                1e3 * reporter.median(std::string("every-mesh") + name) / 64.0);
+    reporter.printRatio("single", "scattered", 0.0, name);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace teren
+
+int main(int argc, char** argv) {
+  return teren::runAll(argc, argv);
+}

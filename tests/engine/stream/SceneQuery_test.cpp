@@ -1,0 +1,253 @@
+#include "teren/SceneQuery.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "teren/Engine.h"
+
+#include "tests/engine/stream/FaultWorld.h"
+#include "tests/engine/stream/PatchGround.h"
+#include "tests/engine/stream/PatchworkScene.h"
+
+namespace teren {
+namespace {
+
+constexpr int kIntervals = 8;
+constexpr double kSpacing = 2.0;
+
+float rough(std::int64_t column, std::int64_t row) {
+  const std::uint64_t bits =
+      hashWith(hashWith(7, static_cast<std::uint64_t>(column)), static_cast<std::uint64_t>(row));
+  return static_cast<float>(bits % 6001) / 100.0F - 30.0F;
+}
+
+/// Four squares of 64 samples divided at random into nodes of levels 0 to 3, to the east, behind a gap, one
+/// node more, and to the south even ground of level 1, whose outermost ring is not drawn.
+Patchwork mixed(std::uint64_t seed, std::int64_t westernmost = -64) {
+  Patchwork patchwork(kIntervals, kSpacing, rough);
+  Dice dice(seed);
+  for (const std::int64_t x : {westernmost, westernmost + 64}) {
+    for (const std::int64_t y : {-64, 0}) patchwork.addDivided(PatchworkNode{x, y, 3}, dice);
+  }
+  patchwork.add({westernmost + 192, 8, 0});
+  patchwork.addEven({westernmost, -128, 1}, 4, 3);
+  return patchwork;
+}
+
+/// The triangles' height at a place in level-0 samples, the normal that belongs to it, and by what the height
+/// may err; in long double, looking at every triangle. Where several meet any of their normals is right.
+struct Expected {
+  long double height = 0.0L, largest = 1.0L;
+  std::vector<std::array<long double, 3>> normals;
+};
+std::optional<Expected> expectedAt(const std::vector<SampleTriangle>& triangles, long double x,
+                                   long double y) {
+  std::optional<Expected> expected;
+  for (const SampleTriangle& t : triangles) {
+    const auto side = [&](std::size_t a, std::size_t b) {
+      return (t.column[a] - x) * (t.row[b] - y) - (t.column[b] - x) * (t.row[a] - y);
+    };
+    const long double u = side(1, 2), v = side(2, 0), w = side(0, 1);
+    if (u < 0.0L || v < 0.0L || w < 0.0L) continue;
+    if (!expected) expected.emplace();
+    const long double sum = u + v + w;
+    expected->height = (u * t.height[0] + v * t.height[1] + w * t.height[2]) / sum;
+    for (const float height : t.height)
+      expected->largest = std::max(expected->largest, std::fabs(height) + 0.0L);
+    const Point ab{(t.column[1] - t.column[0]) * 2.0L, (t.row[1] - t.row[0]) * 2.0L,
+                   static_cast<long double>(t.height[1]) - t.height[0]};
+    const Point ac{(t.column[2] - t.column[0]) * 2.0L, (t.row[2] - t.row[0]) * 2.0L,
+                   static_cast<long double>(t.height[2]) - t.height[0]};
+    const Point normal{ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
+                       ab[0] * ac[1] - ab[1] * ac[0]};
+    const long double size = length(normal);
+    expected->normals.push_back({normal[0] / size, normal[1] / size, normal[2] / size});
+  }
+  return expected;
+}
+
+Position placeOf(double column, double row) {
+  return *Position::fromMetres(column * kSpacing, row * kSpacing, kSpacing * kIntervals);
+}
+
+std::vector<DrawnPoint> ask(const SceneQuery& query, const std::vector<Position>& places) {
+  std::vector<DrawnPoint> answers(places.size());
+  query.points(places, answers);
+  return answers;
+}
+
+void expectTriangles(const SceneQuery& query, const std::vector<std::array<double, 2>>& samples,
+                     std::size_t& found) {
+  const std::vector<SampleTriangle> triangles = trianglesOf(*query.scene());
+  std::vector<Position> places;
+  for (const auto& sample : samples) places.push_back(placeOf(sample[0], sample[1]));
+  const std::vector<DrawnPoint> answers = ask(query, places);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const long double x = samples[k][0], y = samples[k][1], little = 0x1p-40L;
+    // On northern and eastern rims there is what follows there.
+    const bool beyond = std::floor(x) != x && std::floor(y) != y;
+    const bool there = beyond || expectedAt(triangles, x + little, y + little).has_value();
+    const auto expected = there ? expectedAt(triangles, x, y) : std::nullopt;
+    ASSERT_EQ(answers[k].there, expected.has_value()) << samples[k][0] << ", " << samples[k][1];
+    if (!expected) continue;
+    ++found;
+    ASSERT_NEAR(answers[k].height, static_cast<double>(expected->height),
+                static_cast<double>(expected->largest) * kDrawnPointError)
+        << samples[k][0] << ", " << samples[k][1];
+    long double nearest = 1.0L;
+    for (const auto& normal : expected->normals) {
+      long double furthest = 0.0L;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        furthest = std::max(furthest, std::fabs(normal[axis] - answers[k].normal[axis]));
+      }
+      nearest = std::min(nearest, furthest);
+    }
+    ASSERT_LE(nearest, static_cast<long double>(kDrawnPointError));
+  }
+}
+
+TEST(SceneQuery, FindsTheTriangleAtEveryPlaceOfAnyMixOfLevels) {
+  std::size_t there = 0, asked = 0;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const SceneQuery query(mixed(seed).scene(), kIntervals);
+    Dice dice(seed);
+    std::vector<std::array<double, 2>> samples;
+    for (int k = 0; k < 300; ++k) samples.push_back({dice.between(-70, 150), dice.between(-130, 70)});
+    // Vertices, and places on lines and diagonals, but for the rims on which nothing is drawn.
+    for (int k = 0; k < 300; ++k) {
+      const double x = dice.whole(-62, 63), y = dice.whole(-126, 63);
+      samples.push_back({x, y});
+      samples.push_back({x, y + 0.37});
+      samples.push_back({x + 0.625, y + 0.625});
+    }
+    asked += samples.size();
+    expectTriangles(query, samples, there);
+  }
+  EXPECT_GT(there, asked / 2);
+  EXPECT_LT(there, asked);
+}
+
+TEST(SceneQuery, KeepsNorthernAndEasternRimsForWhatFollowsThere) {
+  Patchwork patchwork(kIntervals, kSpacing, rough);
+  patchwork.add({0, 0, 1});
+  const SceneQuery query(patchwork.scene(), kIntervals);
+  const auto there = [&](double column, double row) { return ask(query, {placeOf(column, row)})[0].there; };
+  EXPECT_TRUE(there(0.0, 0.0));
+  EXPECT_TRUE(there(std::nextafter(16.0, 0.0), std::nextafter(16.0, 0.0)));
+  EXPECT_FALSE(there(16.0, 5.0));
+  EXPECT_FALSE(there(5.0, 16.0));
+  EXPECT_FALSE(there(-1e-9, 5.0));
+  EXPECT_FALSE(there(5.0, -1e-9));
+}
+
+TEST(SceneQuery, AnswersNothingWhereThereIsNothing) {
+  const SceneQuery empty(std::make_shared<const Scene>(), kIntervals);
+  EXPECT_FALSE(ask(empty, {Position{}})[0].there);
+  const SceneQuery query(mixed(1).scene(), kIntervals);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Position> places{
+      {0, 0, nan, 0.0},         {0, 0, 0.0, nan},         {0, 0, 1.0, 0.0},       {0, 0, -1e-9, 0.0},
+      {kMaxPatch, 0, 0.0, 0.0}, {-kMaxPatch, -kMaxPatch}, {kMaxPatch + 1, 0, 0.5}};
+  for (const DrawnPoint& answer : ask(query, places)) EXPECT_FALSE(answer.there);
+  query.points({}, {});
+}
+
+TEST(SceneQuery, AnswersTheSameAtTheWorldsEnd) {
+  const std::int64_t far = (kMaxPatch - 16) * kIntervals;
+  Patchwork here(kIntervals, kSpacing, rough);
+  Patchwork there(kIntervals, kSpacing,
+                  [&](std::int64_t column, std::int64_t row) { return rough(column - far, row); });
+  Dice dice(3), same(3);
+  here.addDivided(PatchworkNode{0, 0, 3}, dice);
+  there.addDivided(PatchworkNode{far, 0, 3}, same);
+  const SceneQuery near(here.scene(), kIntervals), distant(there.scene(), kIntervals);
+  for (int k = 0; k < 200; ++k) {
+    Position place{dice.whole(0, 7), dice.whole(0, 7), dice.between(0, 1), dice.between(0, 1)};
+    const DrawnPoint expected = ask(near, {place})[0];
+    place.i += kMaxPatch - 16;
+    const DrawnPoint answer = ask(distant, {place})[0];
+    ASSERT_TRUE(expected.there && answer.there);
+    ASSERT_EQ(answer.height, expected.height);
+    ASSERT_EQ(answer.normal, expected.normal);
+  }
+}
+
+TEST(SceneQuery, WhatItTakesOverFromTheSnapshotBeforeChangesNoAnswer) {
+  Patchwork patchwork(kIntervals, kSpacing, rough);
+  Dice dice(11);
+  patchwork.addDivided(PatchworkNode{0, 0, 3}, dice);
+  const auto first = patchwork.scene();
+  patchwork.addDivided(PatchworkNode{-64, -64, 3}, dice);  // moves the corner too
+  const auto added = patchwork.scene(1000);
+  // The old meshes but every third, and those of the node that came.
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (std::size_t k = 0; k < first->meshes().size(); ++k) {
+    if (k % 3 != 1) meshes.push_back(first->meshes()[k]);
+  }
+  for (std::size_t k = first->meshes().size(); k < added->meshes().size(); ++k) {
+    meshes.push_back(added->meshes()[k]);
+  }
+  const auto second = std::make_shared<const Scene>(2, kSpacing, std::move(meshes));
+  const SceneQuery fresh(second, kIntervals);
+  std::optional<SceneQuery> before(std::in_place, first, kIntervals);
+  const SceneQuery query(second, kIntervals, &*before);
+  before.reset();
+  int there = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const std::vector<Position> place{placeOf(dice.between(-64, 64), dice.between(-64, 64))};
+    const DrawnPoint expected = ask(fresh, place)[0], answer = ask(query, place)[0];
+    ASSERT_EQ(answer.there, expected.there);
+    there += answer.there ? 1 : 0;
+    ASSERT_EQ(answer.height, expected.height);
+    ASSERT_EQ(answer.normal, expected.normal);
+  }
+  EXPECT_GT(there, 1000);
+}
+
+TEST(SceneQuery, ManyThreadsMayAskAtOnce) {
+  const SceneQuery query(mixed(5).scene(), kIntervals);
+  Dice dice(5);
+  std::vector<Position> places;
+  for (int k = 0; k < 1000; ++k) places.push_back(placeOf(dice.between(-64, 64), dice.between(-64, 64)));
+  const std::vector<DrawnPoint> expected = ask(query, places);
+  std::vector<std::vector<DrawnPoint>> answers(4);
+  std::vector<std::thread> threads;
+  for (auto& own : answers) threads.emplace_back([&] { own = ask(query, places); });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& own : answers) {
+    for (std::size_t k = 0; k < places.size(); ++k) EXPECT_EQ(own[k].height, expected[k].height);
+  }
+}
+
+/// Stands at the world's zero.
+class Post final : public Object {
+ public:
+  void update(double, const Ground&) override {}
+  Motion motion() const override { return {}; }
+};
+
+TEST(SceneQuery, SaysOfFinestGroundWhatTheWorldSays) {
+  const auto world = test::faultWorld(3, 17, {1024.0, 64.0}, 20);
+  auto engine = Engine::create(world, {.view = {0, 2}});
+  ASSERT_TRUE(engine.ok());
+  (*engine)->add(std::make_unique<Post>());
+  (*engine)->settle();
+  const SceneQuery query((*engine)->scene(), world->intervals());
+  Dice dice(1);
+  for (int k = 0; k < 500; ++k) {
+    const Position place = *Position::fromMetres(dice.between(-100, 100), dice.between(-100, 100), 64.0);
+    const DrawnPoint answer = ask(query, {place})[0];
+    const SurfacePoint expected = world->query(place);
+    ASSERT_TRUE(answer.there);
+    ASSERT_EQ(answer.height, expected.drawn);
+    ASSERT_EQ(answer.normal, expected.normal);
+  }
+}
+
+}  // namespace
+}  // namespace teren
