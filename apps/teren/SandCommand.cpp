@@ -14,6 +14,7 @@
 #include "apps/teren/Interruption.h"
 #include "apps/teren/ProgressLine.h"
 #include "apps/teren/SandExperiment.h"
+#include "apps/teren/SandPlots.h"
 
 namespace teren {
 namespace {
@@ -34,11 +35,17 @@ class SandCommand final : public Command {
     const std::string doc = "leave out the regular grid";
     noGrid_ = application().add_flag("--no-grid", doc)->disable_flag_override();
     output_ = add("-o", "FILE: write the table there, comma-separated");
+    plots_ = add("--plots", "FOLDER: draw time and memory there with gnuplot; of two or more grooves");
   }
 
   ExitCode run() override {
     const Result<std::vector<SandExperiment>> experiments = read();
     if (!experiments) return fail(kWrongInput, experiments.error().message);
+    if (plots_->count() > 0) {
+      if (const Result<void> ready = prepareToPlot(*experiments); !ready) {
+        return fail(kWrongInput, ready.error().message);
+      }
+    }
     std::optional<OutputFile> file;
     if (output_->count() > 0) {
       Result<OutputFile> created = OutputFile::create(argument(*output_));
@@ -46,27 +53,56 @@ class SandCommand final : public Command {
       file.emplace(*std::move(created));
     }
     const Interruption interruption;
-    ProgressLine progress("grooves");
-    std::string table = sandTableHead() + "\n";
-    for (std::size_t n = 0; n < experiments->size(); ++n) {
-      progress.show(n, experiments->size());
-      const SandExperiment& experiment = experiments.value()[n];
-      const Result<SandResult> result = runSandExperiment(experiment, [&] { return interruption.came(); });
-      if (!result) return fail(kWorkFailed, result.error().message);
-      table += sandTableLine(experiment, *result) + "\n";
+    const Result<std::vector<SandRun>> runs = runAll(*experiments, interruption);
+    if (!runs) return fail(kWorkFailed, runs.error().message);
+    if (const Result<void> kept = write(sandTable(*runs), file); !kept) {
+      return fail(kWorkFailed, kept.error().message);
     }
-    if (!file) {
-      std::cout << table;
-      return kSuccess;
-    }
-    if (std::fwrite(table.data(), 1, table.size(), file->stream()) != table.size()) {
-      return fail(kWorkFailed, inQuotes(argument(*output_)) + " cannot be written");
-    }
-    const Result<void> kept = file->commit();
-    return kept ? kSuccess : fail(kWorkFailed, kept.error().message);
+    if (plots_->count() == 0) return kSuccess;
+    const Result<void> drawn = plotSand(argument(*plots_), *runs);
+    if (drawn) return kSuccess;
+    return fail(kWorkFailed, interruption.came() ? "interrupted" : drawn.error().message);
   }
 
  private:
+  static Result<std::vector<SandRun>> runAll(const std::vector<SandExperiment>& experiments,
+                                             const Interruption& interruption) {
+    ProgressLine progress("grooves");
+    std::vector<SandRun> runs;
+    for (const SandExperiment& experiment : experiments) {
+      progress.show(runs.size(), experiments.size());
+      const Result<SandResult> result = runSandExperiment(experiment, [&] { return interruption.came(); });
+      if (!result) return result.error();
+      runs.push_back({experiment, *result});
+    }
+    return runs;
+  }
+
+  /// What would be known too late after the experiments.
+  Result<void> prepareToPlot(const std::vector<SandExperiment>& experiments) const {
+    if (experiments.size() < 2) {
+      return Error{"--plots needs two or more --vertices or --trace to draw a line"};
+    }
+    const std::filesystem::path folder = argument(*plots_);
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (problem) {
+      return Error{"no folder " + inQuotes(folder.string()) + " can be made: " + problem.message()};
+    }
+    return findGnuplot();
+  }
+
+  Result<void> write(const std::string& table, std::optional<OutputFile>& file) const {
+    if (!file) {
+      std::cout << table;
+      return {};
+    }
+    if (std::fwrite(table.data(), 1, table.size(), file->stream()) != table.size()) {
+      return Error{inQuotes(argument(*output_)) + " cannot be written"};
+    }
+    return file->commit();
+  }
+
   const CLI::Option* add(const std::string& name, const std::string& doc) {
     return application().add_option(name, doc);
   }
@@ -138,6 +174,7 @@ class SandCommand final : public Command {
   const CLI::Option* steps_;
   const CLI::Option* noGrid_;
   const CLI::Option* output_;
+  const CLI::Option* plots_;
 };
 
 }  // namespace

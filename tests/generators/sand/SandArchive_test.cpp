@@ -70,6 +70,17 @@ TEST(SandArchive, GoesOnToTheSameBitsWhereverItWasTaken) {
   }
 }
 
+TEST(SandArchive, IsTheSameHoweverSlidesAreSliced) {
+  for (std::uint64_t seed = 31; seed <= 36; ++seed) {
+    RandomGame whole = busyGame(seed, 20);
+    RandomGame sliced = whole;
+    whole.sandbox().slide(1'000);
+    for (const std::uint64_t steps : {1U, 9U, 90U, 300U, 600U}) sliced.sandbox().slide(steps);
+    for (Sandbox* each : {&whole.sandbox(), &sliced.sandbox()}) each->clean();
+    EXPECT_EQ(archived(sliced.sandbox()), archived(whole.sandbox())) << "seed " << seed;
+  }
+}
+
 TEST(SandArchive, KeepsWhatPeopleSee) {
   const RandomGame game = busyGame(7, 60);
   const Sandbox& original = game.sandbox();
