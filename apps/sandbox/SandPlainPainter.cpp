@@ -71,8 +71,8 @@ void SandPlainPainter::draw(const SandPicture& picture) {
   glDisable(GL_CULL_FACE);
   glEnableClientState(GL_VERTEX_ARRAY);
   glEnableClientState(GL_COLOR_ARRAY);
-  glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &vertices_.front().x);
-  glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), vertices_.front().colour.data());
+  drawSides(picture);
+  pointTo(vertices_.front());
   if (picture.wireframe) {
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.0F, 1.0F);
@@ -81,10 +81,24 @@ void SandPlainPainter::draw(const SandPicture& picture) {
   if (picture.wireframe) {
     drawWire(picture);
   } else {
-    edges_.clear();
+    constrained_.clear();
   }
   glPopClientAttrib();
   glPopAttrib();
+}
+
+void SandPlainPainter::pointTo(const Vertex& first) {
+  glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &first.x);
+  glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), first.colour.data());
+}
+
+void SandPlainPainter::drawSides(const SandPicture& picture) {
+  const float side = sideOf(*picture.sand);
+  std::vector<Vertex> walls;
+  for (const SandVertex& vertex : sides_.of(picture.sand)) walls.push_back(vertexOf(picture, vertex, side));
+  if (walls.empty()) return;
+  pointTo(walls.front());
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(walls.size()));
 }
 
 void SandPlainPainter::drawWire(const SandPicture& picture) {
@@ -99,7 +113,7 @@ void SandPlainPainter::drawWire(const SandPicture& picture) {
   drawTriangles(picture);
   glLineWidth(SandLook::kConstrainedWidth);
   glColor4fv(SandLook::kConstrained);
-  const std::vector<VertexId>& edges = edges_.of(picture.sand);
+  const std::vector<VertexId>& edges = constrained_.of(picture.sand);
   glDrawElements(GL_LINES, static_cast<GLsizei>(edges.size()), GL_UNSIGNED_INT, edges.data());
 }
 

@@ -9,6 +9,7 @@
 
 #include "apps/sandbox/SandEdges.h"
 #include "apps/sandbox/SandPainter.h"
+#include "apps/sandbox/SandSides.h"
 
 namespace teren {
 
@@ -30,11 +31,14 @@ class SandPlainPainter final : public SandPainter {
   };
   static Vertex vertexOf(const SandPicture& picture, const SandVertex& vertex, float side);
   void follow(const SandPicture& picture);
+  static void pointTo(const Vertex& first);
+  void drawSides(const SandPicture& picture);
   void drawTriangles(const SandPicture& picture) const;
   void drawWire(const SandPicture& picture);
 
   SandPicture last_;
-  SandEdges edges_;
+  SandEdges constrained_{SandEdges::Kind::constrained};
+  SandSides sides_;
   std::vector<Vertex> vertices_;
 };
 

@@ -14,8 +14,8 @@ namespace {
 constexpr GLuint kAttributes[] = {kSandPlace, kSandHeight, kSandLoose, kSandNormal};
 constexpr float kCellsPerSide = 400.0F;  // of the coarsest grain
 
-const void* at(std::size_t offset) {
-  return reinterpret_cast<const void*>(static_cast<std::uintptr_t>(offset));
+const void* at(const SandVertex* start, std::size_t offset) {
+  return reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(start) + offset);
 }
 
 /// Restores what drawing changes, so that Inventor's own idea of GL's state stays true.
@@ -41,20 +41,21 @@ class SavedState {
   GLint program_ = 0;
 };
 
-void pointAttributes() {
+/// `start`: in memory, or nullptr for that of the buffer.
+void pointAttributes(const SandVertex* start) {
   constexpr GLsizei kStride = sizeof(SandVertex);
   for (const GLuint attribute : kAttributes) glEnableVertexAttribArray(attribute);
-  glVertexAttribPointer(kSandPlace, 2, GL_INT, GL_FALSE, kStride, at(offsetof(SandVertex, place)));
-  glVertexAttribPointer(kSandHeight, 1, GL_FLOAT, GL_FALSE, kStride, at(offsetof(SandVertex, height)));
-  glVertexAttribPointer(kSandLoose, 1, GL_FLOAT, GL_FALSE, kStride, at(offsetof(SandVertex, loose)));
-  glVertexAttribPointer(kSandNormal, 2, GL_SHORT, GL_FALSE, kStride, at(offsetof(SandVertex, normal)));
+  glVertexAttribPointer(kSandPlace, 2, GL_INT, GL_FALSE, kStride, at(start, offsetof(SandVertex, place)));
+  glVertexAttribPointer(kSandHeight, 1, GL_FLOAT, GL_FALSE, kStride, at(start, offsetof(SandVertex, height)));
+  glVertexAttribPointer(kSandLoose, 1, GL_FLOAT, GL_FALSE, kStride, at(start, offsetof(SandVertex, loose)));
+  glVertexAttribPointer(kSandNormal, 2, GL_SHORT, GL_FALSE, kStride, at(start, offsetof(SandVertex, normal)));
 }
 
 void drawRuns(const std::vector<SandRun>& runs) {
   constexpr std::size_t kIndices = 3 * SandTrianglePage::kSlots;
   for (const SandRun& run : runs) {
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.count * kIndices), GL_UNSIGNED_INT,
-                   at(run.first * kIndices * sizeof(VertexId)));
+                   at(nullptr, run.first * kIndices * sizeof(VertexId)));
   }
 }
 
@@ -82,7 +83,8 @@ Result<std::unique_ptr<SandPainter>> SandShaderPainter::create() {
 
 void SandShaderPainter::release() {
   buffers_.clear();
-  edges_.clear();
+  constrained_.clear();
+  sides_.clear();
   sand_.release();
   wire_.release();
 }
@@ -90,8 +92,6 @@ void SandShaderPainter::release() {
 void SandShaderPainter::draw(const SandPicture& picture) {
   const SavedState saved;
   buffers_.follow(picture.sand);
-  buffers_.bind();
-  pointAttributes();
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   const std::vector<SandRun> runs = visibleRuns(*picture.sand, picture.toClip);
@@ -103,11 +103,11 @@ void SandShaderPainter::draw(const SandPicture& picture) {
   if (picture.wireframe) {
     drawWire(picture, runs);
   } else {
-    edges_.clear();
+    constrained_.clear();
   }
 }
 
-void SandShaderPainter::drawSand(const SandPicture& picture, const std::vector<SandRun>& runs) const {
+void SandShaderPainter::drawSand(const SandPicture& picture, const std::vector<SandRun>& runs) {
   const float side = sideOf(*picture.sand);
   sand_.use();
   sand_.set("step", static_cast<float>(picture.sand->frame().step));
@@ -123,6 +123,12 @@ void SandShaderPainter::drawSand(const SandPicture& picture, const std::vector<S
   sand_.set("solidColour", SandLook::kSolid);
   sand_.set("shade", SandLook::kShade);
   sand_.set("light", SandLook::kLight);
+  const std::vector<SandVertex>& walls = sides_.of(picture.sand);
+  glBindBuffer(GL_ARRAY_BUFFER, 0);  // they are few, and come from the program's own memory
+  pointAttributes(walls.data());
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(walls.size()));
+  buffers_.bind();
+  pointAttributes(nullptr);
   drawRuns(runs);
 }
 
@@ -138,7 +144,7 @@ void SandShaderPainter::drawWire(const SandPicture& picture, const std::vector<S
   glLineWidth(1.0F);
   setColour(wire_, SandLook::kWire);
   drawRuns(runs);
-  const std::vector<VertexId>& edges = edges_.of(picture.sand);
+  const std::vector<VertexId>& edges = constrained_.of(picture.sand);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
   glLineWidth(SandLook::kConstrainedWidth);
   setColour(wire_, SandLook::kConstrained);

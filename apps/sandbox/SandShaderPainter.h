@@ -8,6 +8,7 @@
 #include "apps/sandbox/SandBuffers.h"
 #include "apps/sandbox/SandEdges.h"
 #include "apps/sandbox/SandPainter.h"
+#include "apps/sandbox/SandSides.h"
 #include "coin/ShaderPainter.h"
 
 namespace teren {
@@ -25,12 +26,13 @@ class SandShaderPainter final : public SandPainter {
 
  private:
   SandShaderPainter() = default;
-  void drawSand(const SandPicture& picture, const std::vector<SandRun>& runs) const;
+  void drawSand(const SandPicture& picture, const std::vector<SandRun>& runs);
   void drawWire(const SandPicture& picture, const std::vector<SandRun>& runs);
 
   ShaderProgram sand_, wire_;
   SandBuffers buffers_;
-  SandEdges edges_;
+  SandEdges constrained_{SandEdges::Kind::constrained};
+  SandSides sides_;
 };
 
 }  // namespace teren

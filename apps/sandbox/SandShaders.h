@@ -25,10 +25,10 @@ void main() {
 }
 )";
 
-/// Grain is noise in three octaves that follow the distance: those whose cells are 1.4 to 11 pixels wide, the
-/// finest ones strongest. So it is fine however near one looks, and does not flicker from afar: cells wider
-/// than 1/400 of the box do not exist, so where those are too small to be seen sand is smooth. It is laid on
-/// from above: on walls it is drawn out.
+/// Grain is noise in two octaves that follow the distance: those whose cells are 1.4 to 5.6 pixels wide. So
+/// it is fine however near one looks, and does not flicker from afar: cells wider than 1/400 of the box do
+/// not exist, so where those are too small to be seen sand is smooth. It is laid on from above, on walls
+/// steeper than 60 degrees from beside.
 inline constexpr char kSandFragmentShader[] = R"(#version 120
 uniform vec3 sun;        // towards it
 uniform vec3 sunlight;
@@ -63,24 +63,25 @@ vec3 noise(vec2 at) {
 
 void main() {
   vec3 normal = normalize(ground.xyz);
-  vec2 at = position.xy * cells;
+  bool wall = normal.z < 0.5;
+  vec2 at = (wall ? vec2(position.x + position.y, position.z) : position.xy) * cells;
   vec2 eastwards = dFdx(at), northwards = dFdy(at);
   float pixel = max(max(length(eastwards), length(northwards)), 1e-9);  // [cells of the coarsest octave]
   float finest = log2(0.7 / pixel);                                     // the octave of cells of 1.4 pixels
-  float first = max(ceil(finest) - 3.0, 0.0);
+  float first = max(ceil(finest) - 2.0, 0.0);
   vec2 gradient = vec2(0.0);
   float value = 0.0;
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 2; ++k) {
     float octave = first + float(k);
     float finer = finest - octave;  // by how many octaves finer ones could be seen
-    float weight = min(finer, 1.0) * (3.0 - finer) * 0.5;
+    float weight = min(finer, 1.0) * (2.0 - finer);
     if (finer <= 0.0) continue;
     vec3 one = noise(at * exp2(octave) + 17.0 * octave);
     gradient += weight * one.xy;
     value += weight * one.z;
   }
   float loose = ground.w;
-  vec3 bump = vec3(gradient, 0.0) * mix(0.09, 0.14, loose) * (1.0 - 0.4 * moisture);
+  vec3 bump = (wall ? gradient.xxy : vec3(gradient, 0.0)) * mix(0.09, 0.14, loose) * (1.0 - 0.4 * moisture);
   vec3 bumped = normalize(normal - (bump - normal * dot(normal, bump)));
 
   float lit = sky * (0.5 + 0.5 * bumped.z) + (1.0 - sky) * max(dot(bumped, sun), 0.0);
@@ -88,9 +89,8 @@ void main() {
   // Rounded at both ends: 0 for -0.25 and less, 1 for 1.25 and more.
   stretched = smoothstep(-0.25, 1.25, stretched);
   // From afar sand is not all one colour.
-  float broad = clamp(finest + 5.0, 0.0, 1.0) * noise(at * (1.0 / 32.0)).z +
-                clamp(finest + 3.0, 0.0, 1.0) * noise(at * (1.0 / 8.0)).z;
-  vec3 colour = mix(solidColour, looseColour, loose) * (1.0 + 0.12 * value + 0.03 * broad);
+  float broad = clamp(0.5 * finest + 2.0, 0.0, 1.0) * noise(at * (1.0 / 16.0)).z;
+  vec3 colour = mix(solidColour, looseColour, loose) * (1.0 + 0.12 * value + 0.04 * broad);
   colour *= mix(1.0, wet, moisture);
   gl_FragColor = vec4(colour * mix(shade, light * sunlight, stretched), 1.0);
 }

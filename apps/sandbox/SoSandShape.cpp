@@ -24,6 +24,7 @@
 
 #include "apps/sandbox/SandPlainPainter.h"
 #include "apps/sandbox/SandShaderPainter.h"
+#include "apps/sandbox/SandSides.h"
 #include "coin/TerrainLook.h"
 
 namespace {
@@ -162,7 +163,7 @@ void SoSandShape::computeBBox(SoAction* /*action*/, SbBox3f& box, SbVec3f& cente
   if (bounds.isEmpty()) return;
   const double step = sand_->frame().step;
   const auto metres = [step](std::int32_t steps) { return static_cast<float>(steps * step); };
-  box.setBounds(metres(bounds.southWest.x), metres(bounds.southWest.y), bounds.low,
+  box.setBounds(metres(bounds.southWest.x), metres(bounds.southWest.y), teren::SandSides::bottomOf(*sand_),
                 metres(bounds.northEast.x), metres(bounds.northEast.y), bounds.high);
   center = box.getCenter();
 }

@@ -14,10 +14,11 @@
 #include "apps/sandbox/SandPainter.h"
 #include "generators/sand/SandSnapshot.h"
 
-/// Metres from the south-west corner of the sand's box to the east and north, and absolute height. Lit by the
-/// first directional light before it. Up to some million vertices: what is outside the view is not drawn,
-/// what did not change is not uploaded. Draws with OpenGL 2.1; without shaders, or with TEREN_NO_SHADERS=1 in
-/// the environment, without grain. Made by programs; the snapshot is not written to files.
+/// A block of sand; its walls are not picked. Coordinates are metres from the south-west corner of the sand's
+/// box to the east and north, and absolute height. Lit by the first directional light before it. Up to some
+/// million vertices: what is outside the view is not drawn, what did not change is not uploaded. Draws with
+/// OpenGL 2.1; without shaders, or with TEREN_NO_SHADERS=1 in the environment, without grain. Made by
+/// programs; the snapshot is not written to files.
 class SoSandShape : public SoShape {
   typedef SoShape inherited;  // NOLINT: the name SO_NODE_HEADER expects
 

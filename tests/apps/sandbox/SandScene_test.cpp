@@ -181,6 +181,23 @@ TEST(SandScene, NeverShowsTheBackgroundThroughTheGround) {
   }
 }
 
+TEST(SandScene, IsABlockFromBeside) {
+  for (const bool shaders : {true, false}) {
+    const std::optional<WithoutShaders> without =
+        shaders ? std::nullopt : std::make_optional<WithoutShaders>();
+    Beach beach(3'000);
+    OffscreenView view(120, 120);
+    for (const SbVec3f& from : {SbVec3f(0.5F, -1.0F, 0.0F), SbVec3f(2.0F, 0.5F, 0.0F),
+                                SbVec3f(0.5F, 2.0F, 0.0F), SbVec3f(-1.0F, 0.5F, 0.0F)}) {
+      beach.look(from, {0.5F, 0.5F, 0.0F});
+      // A twentieth of a metre from a metre away is 7.2 pixels high.
+      const QImage picture = view.picture(beach.root, kMagenta);
+      EXPECT_EQ(countPixels(picture.copy(20, 61, 80, 6), isBackground), 0);
+      EXPECT_EQ(countPixels(picture.copy(20, 69, 80, 40), isBackground), 80 * 40);
+    }
+  }
+}
+
 TEST(SandScene, LooksAboutTheSameWithoutShaders) {
   Beach beach;
   beach.dig();
