@@ -8,11 +8,8 @@
 #include <Inventor/nodes/SoSeparator.h>
 #include <QApplication>
 #include <QCloseEvent>
-#include <QDateTime>
-#include <QDir>
 #include <QKeyEvent>
 #include <QMouseEvent>
-#include <QStandardPaths>
 #include <QVBoxLayout>
 #include <QWheelEvent>
 
@@ -37,13 +34,6 @@ double seconds(FlyWindow::Clock::duration duration) {
 
 double frameStep(FlyWindow::Clock::duration duration) {
   return std::clamp(seconds(duration), 0.0, Flight::kLongestStep);
-}
-
-QString pictureFile() {
-  const QString pictures = QStandardPaths::writableLocation(QStandardPaths::PicturesLocation);
-  const QDir folder(QDir(pictures).exists() ? pictures : QDir::currentPath());
-  const QString time = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd-hhmmss-zzz"));
-  return folder.absoluteFilePath(QStringLiteral("teren-%1.png").arg(time));
 }
 
 }  // namespace
@@ -303,7 +293,7 @@ void FlyWindow::toggleFullScreen() {
 
 void FlyWindow::keepPicture(const QImage& picture) {
   pictureWanted_ = false;
-  const std::string file = pictureFile().toStdString();
+  const std::string file = newPictureName();
   const Result<void> saved = savePicture(picture, file);
   say(saved ? "screenshot: " + file : saved.error().message);
 }

@@ -17,15 +17,19 @@ nlohmann::ordered_json object(const Percentiles& percentiles) {
 }  // namespace
 
 std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameStatistics& engineMicroseconds,
-                        const EngineFigures& figures, std::size_t bytes) {
+                        ReportedCounts counts) {
   nlohmann::ordered_json report;
   report["frames"] = frameMilliseconds.count();
   report["frame_ms"] = object(frameMilliseconds.percentiles());
   report["engine_us"] = object(engineMicroseconds.percentiles());
-  report["triangles"] = figures.triangles;
-  report["nodes"] = figures.nodes;
-  report["bytes"] = bytes;
+  for (const auto& [name, count] : counts) report[name] = count;
   return report.dump(2) + "\n";
+}
+
+std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameStatistics& engineMicroseconds,
+                        const EngineFigures& figures, std::size_t bytes) {
+  return frameReport(frameMilliseconds, engineMicroseconds,
+                     {{"triangles", figures.triangles}, {"nodes", figures.nodes}, {"bytes", bytes}});
 }
 
 }  // namespace teren

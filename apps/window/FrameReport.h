@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 #include "teren/Engine.h"
 
@@ -10,8 +12,15 @@
 
 namespace teren {
 
-/// {"frames", "frame_ms": {"p50", "p99", "max"}, "engine_us": {the same}, "triangles", "nodes", "bytes"} as
-/// JSON text; the last three as they are at the end. `bytes` are the engine's and the graphics buffers'.
+/// What there is at the end, by name.
+using ReportedCounts = std::initializer_list<std::pair<const char*, std::size_t>>;
+
+/// {"frames", "frame_ms": {"p50", "p99", "max"}, "engine_us": {the same}, counts...} as JSON text.
+std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameStatistics& engineMicroseconds,
+                        ReportedCounts counts);
+
+/// The same with {"triangles", "nodes", "bytes"}, as they are at the end. `bytes` are the engine's and the
+/// graphics buffers'.
 std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameStatistics& engineMicroseconds,
                         const EngineFigures& figures, std::size_t bytes);
 

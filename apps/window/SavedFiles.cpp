@@ -1,6 +1,9 @@
 #include "apps/window/SavedFiles.h"
 
+#include <QDateTime>
+#include <QDir>
 #include <QSaveFile>
+#include <QStandardPaths>
 #include <QString>
 
 #include "teren/Quote.h"
@@ -13,6 +16,13 @@ Error cannotWrite(const std::string& file, const QSaveFile& saved) {
 }
 
 }  // namespace
+
+std::string newPictureName() {
+  const QString pictures = QStandardPaths::writableLocation(QStandardPaths::PicturesLocation);
+  const QDir folder(QDir(pictures).exists() ? pictures : QDir::currentPath());
+  const QString time = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd-hhmmss-zzz"));
+  return folder.absoluteFilePath(QStringLiteral("teren-%1.png").arg(time)).toStdString();
+}
 
 Result<void> savePicture(const QImage& picture, const std::string& file) {
   if (picture.isNull()) return Error{"cannot write " + inQuotes(file) + ": the window showed no picture"};

@@ -10,6 +10,9 @@
 
 namespace teren {
 
+/// A name for a picture taken now: in the person's folder of pictures, or else where the program runs.
+std::string newPictureName();
+
 /// Writes a PNG file. Errors: no picture, or a file that cannot be written; what was there before stays then.
 Result<void> savePicture(const QImage& picture, const std::string& file);
 

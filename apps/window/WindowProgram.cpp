@@ -47,15 +47,19 @@ Result<void> runWithWindows(const char* name, char** argv, const std::function<R
   qInstallMessageHandler(exitWhenQtGivesUp);
   int argumentCount = 1;  // Qt's own options are not ours
   QApplication application(argumentCount, argv);
-  for (const int signal : {SIGINT, SIGTERM}) {
-    std::signal(signal, [](int) { asked = 1; });
-  }
+  watchForEnd();
   QWidget shell;  // SoQt asks for a top-level widget; it is never shown
   SoQt::init(&shell);
   SoTerrain::initClass();
   const Result<void> done = work();
   SoQt::done();
   return done;
+}
+
+void watchForEnd() noexcept {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::signal(signal, [](int) { asked = 1; });
+  }
 }
 
 bool endAsked() noexcept {

@@ -13,6 +13,9 @@ namespace teren {
 /// sentence. `name` is the program's, for messages; it must outlive the program (a literal does).
 Result<void> runWithWindows(const char* name, char** argv, const std::function<Result<void>()>& work);
 
+/// From now on SIGINT and SIGTERM ask the program to end instead of ending it; runWithWindows does that, too.
+void watchForEnd() noexcept;
+
 /// Whether the person has asked the program to end by a signal (SIGINT, SIGTERM).
 bool endAsked() noexcept;
 
