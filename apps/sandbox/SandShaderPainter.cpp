@@ -69,10 +69,10 @@ void setColour(const ShaderProgram& program, const float (&colour)[4]) {
 Result<std::unique_ptr<SandPainter>> SandShaderPainter::create() {
   constexpr std::array<const char*, 4> kNames{"place", "height", "loose", "normal"};
   std::unique_ptr<SandShaderPainter> painter(new SandShaderPainter);
-  const auto sand = ShaderProgram::link(kSandVertexShader, kSandFragmentShader, kNames);
+  const auto sand = ShaderProgram::link(kSandVertexShader, std::array{kSandFragmentShader}, kNames);
   if (!sand) return sand.error();
   painter->sand_ = *sand;
-  const auto wire = ShaderProgram::link(kSandVertexShader, kSandWireShader, kNames);
+  const auto wire = ShaderProgram::link(kSandVertexShader, std::array{kSandWireShader}, kNames);
   if (!wire) {
     painter->release();
     return wire.error();

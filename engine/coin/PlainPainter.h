@@ -20,6 +20,7 @@ class PlainPainter final : public TerrainPainter {
   PlainPainter() = default;
   static constexpr double kAnchorStep = 64.0;  ///< [m] halving it halves what a vertex strays on the screen
 
+  bool knowsLogarithmicDepth() const noexcept override { return false; }
   void draw(const Picture& picture, std::span<const Mesh* const> meshes) override;
   void forget(const Mesh& mesh) override { vertices_.erase(&mesh); }
   void release() override { vertices_.clear(); }

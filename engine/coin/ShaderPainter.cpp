@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "coin/GroundTexture.h"
+#include "coin/LogarithmicDepth.h"
 #include "coin/OpenGL.h"
 #include "coin/TerrainShaders.h"
 
@@ -22,9 +23,9 @@ std::string programLog(GLuint program) {
   return text.data();
 }
 
-void attach(GLuint program, GLenum kind, const char* source) {
+void attach(GLuint program, GLenum kind, std::span<const char* const> source) {
   const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &source, nullptr);
+  glShaderSource(shader, static_cast<GLsizei>(source.size()), source.data(), nullptr);
   glCompileShader(shader);
   glAttachShader(program, shader);
   glDeleteShader(shader);  // lives as long as the program
@@ -141,12 +142,13 @@ std::size_t uploadOnce(GLenum target, unsigned& name, const std::vector<T>& data
 
 }  // namespace
 
-Result<ShaderProgram> ShaderProgram::link(const char* vertexShader, const char* fragmentShader,
+Result<ShaderProgram> ShaderProgram::link(const char* vertexShader,
+                                          std::span<const char* const> fragmentShader,
                                           std::span<const char* const> attributes) {
   if (!glslThere()) return Error{"OpenGL offers no shading language 1.20 here"};
   ShaderProgram program;
   program.name_ = glCreateProgram();
-  attach(program.name_, GL_VERTEX_SHADER, vertexShader);
+  attach(program.name_, GL_VERTEX_SHADER, {&vertexShader, 1});
   attach(program.name_, GL_FRAGMENT_SHADER, fragmentShader);
   for (GLuint number = 0; number < attributes.size(); ++number) {
     glBindAttribLocation(program.name_, number, attributes[number]);
@@ -193,8 +195,9 @@ void ShaderProgram::release() {
 
 Result<std::unique_ptr<TerrainPainter>> ShaderPainter::create() {
   std::unique_ptr<ShaderPainter> painter(new ShaderPainter);
-  const Result<void> linked = painter->link();
-  if (!linked) {
+  for (const Result<void>& linked :
+       {link(painter->ordinary_, kOrdinaryDepth), link(painter->logarithmic_, kLogarithmicDepthShader)}) {
+    if (linked) continue;
     painter->release();
     return linked.error();
   }
@@ -204,27 +207,29 @@ Result<std::unique_ptr<TerrainPainter>> ShaderPainter::create() {
   return std::unique_ptr<TerrainPainter>(std::move(painter));
 }
 
-Result<void> ShaderPainter::link() {
+Result<void> ShaderPainter::link(Programs& programs, const char* depth) {
   constexpr std::array<const char*, 4> kGround{"cell", "height", "slope", "place"};
   constexpr std::array<const char*, 1> kWater{"cell"};
-  const auto make = [](ShaderProgram& program, const char* vertex, const char* fragment,
-                       std::span<const char* const> attributes) -> Result<void> {
-    const Result<ShaderProgram> linked = ShaderProgram::link(vertex, fragment, attributes);
+  const auto make = [depth](ShaderProgram& program, const char* vertex, const char* fragment,
+                            std::span<const char* const> attributes) -> Result<void> {
+    const std::array<const char*, 3> pieces{kVersion, depth, fragment};
+    const Result<ShaderProgram> linked = ShaderProgram::link(vertex, pieces, attributes);
     if (!linked) return linked.error();
     program = *linked;
     return {};
   };
-  if (Result<void> made = make(ground_, kGroundVertexShader, kGroundFragmentShader, kGround); !made)
+  if (Result<void> made = make(programs.ground, kGroundVertexShader, kGroundFragmentShader, kGround); !made)
     return made;
-  if (Result<void> made = make(water_, kWaterVertexShader, kWaterFragmentShader, kWater); !made) return made;
-  return make(deep_, kWaterVertexShader, kDeepFragmentShader, kWater);
+  if (Result<void> made = make(programs.water, kWaterVertexShader, kWaterFragmentShader, kWater); !made)
+    return made;
+  return make(programs.deep, kWaterVertexShader, kDeepFragmentShader, kWater);
 }
 
 void ShaderPainter::release() {
   buffers_.clear();
-  ground_.release();
-  water_.release();
-  deep_.release();
+  for (Programs* programs : {&ordinary_, &logarithmic_}) {
+    for (ShaderProgram* program : {&programs->ground, &programs->water, &programs->deep}) program->release();
+  }
   glDeleteTextures(1, &noise_);
   glDeleteBuffers(1, &waterVertices_);
   glDeleteBuffers(1, &waterIndices_);
@@ -248,14 +253,13 @@ void ShaderPainter::makeWater() {
   waterBytes_ += uploadOnce(GL_ELEMENT_ARRAY_BUFFER, waterIndices_, discTriangles());
 }
 
-void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
-  const SavedState saved;
-  buffers_.frame();
-  const Anchor anchor = picture.placement.anchorNear(picture.eye, kAnchorStep);
+/// The programs for a picture, with all that is the same for the whole of it.
+const ShaderPainter::Programs& ShaderPainter::prepare(const Picture& picture, const Anchor& anchor) const {
+  const Programs& programs = picture.depthScale ? logarithmic_ : ordinary_;
   const SbVec3f eye(picture.eye - picture.placement.position(anchor));
   SbDPMatrix toClip = picture.toEye;
   toClip.multRight(picture.toClip);
-  for (const ShaderProgram* program : {&ground_, &water_, &deep_}) {
+  for (const ShaderProgram* program : {&programs.ground, &programs.water, &programs.deep}) {
     program->use();
     program->set("toClip", toClip);
     program->set("spacing", static_cast<float>(picture.placement.spacing()));
@@ -269,24 +273,33 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
     program->set("sunlight", picture.sunlight);
     program->set("deep", kDeepWater);
     program->set("clearShare", kClearShare);
+    if (picture.depthScale) program->set("depthScale", (*picture.depthScale)[0], (*picture.depthScale)[1]);
   }
+  return programs;
+}
 
+void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
+  const SavedState saved;
+  buffers_.frame();
+  const Anchor anchor = picture.placement.anchorNear(picture.eye, kAnchorStep);
+  const Programs& programs = prepare(picture, anchor);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, noise_);
-  if (picture.water) drawFarWater();
+  if (picture.water) drawFarWater(programs);
   // Backs of the ground are seen only from below; a mirroring model matrix turns fronts into backs.
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(picture.toEye.det3() < 0.0 ? GL_CW : GL_CCW);
-  drawGround(anchor.sample, meshes);
+  drawGround(programs.ground, anchor.sample, meshes);
   glDisable(GL_CULL_FACE);
-  if (picture.water) drawClearWater();
+  if (picture.water) drawClearWater(programs.water);
 }
 
-void ShaderPainter::drawGround(const Sample& anchor, std::span<const Mesh* const> meshes) {
+void ShaderPainter::drawGround(const ShaderProgram& program, const Sample& anchor,
+                               std::span<const Mesh* const> meshes) {
   constexpr std::int64_t kExact = std::int64_t{1} << 23;  // leaves room for the mesh itself below 2^24
   glDisable(GL_BLEND);
-  ground_.use();
+  program.use();
   for (const GLuint attribute : {kCell, kHeight, kSlope}) glEnableVertexAttribArray(attribute);
   for (const Mesh* mesh : meshes) {
     const std::int64_t column = mesh->originColumn - anchor.column;
@@ -301,21 +314,21 @@ void ShaderPainter::drawGround(const Sample& anchor, std::span<const Mesh* const
   for (const GLuint attribute : {kCell, kHeight, kSlope}) glDisableVertexAttribArray(attribute);
 }
 
-void ShaderPainter::drawFarWater() const {
+void ShaderPainter::drawFarWater(const Programs& programs) const {
   glDisable(GL_BLEND);
-  water_.use();
+  programs.water.use();
   drawRings(kClearRings, kWaterRings - kClearRings);
   glPushAttrib(GL_DEPTH_BUFFER_BIT);
   glDepthMask(GL_FALSE);
-  deep_.use();
+  programs.deep.use();
   drawRings(0, kClearRings);
   glPopAttrib();
 }
 
-void ShaderPainter::drawClearWater() const {
+void ShaderPainter::drawClearWater(const ShaderProgram& program) const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  water_.use();
+  program.use();
   drawRings(0, kClearRings);
 }
 

@@ -15,9 +15,9 @@ namespace teren {
 class ShaderProgram {
  public:
   ShaderProgram() = default;
-  /// `attributes` are bound to the numbers 0, 1, 2 ... in order. The error is GL's log, or that
-  /// the context has no GLSL 1.20.
-  static Result<ShaderProgram> link(const char* vertexShader, const char* fragmentShader,
+  /// The fragment shader comes in pieces. `attributes` are bound to the numbers 0, 1, 2 ... in order. The
+  /// error is GL's log, or that the context has no GLSL 1.20.
+  static Result<ShaderProgram> link(const char* vertexShader, std::span<const char* const> fragmentShader,
                                     std::span<const char* const> attributes);
   void use() const;
   void set(const char* name, float value) const;
@@ -35,6 +35,7 @@ class ShaderPainter final : public TerrainPainter {
   /// Fails where the context has no GLSL 1.20 or does not take the programs.
   static Result<std::unique_ptr<TerrainPainter>> create();
 
+  bool knowsLogarithmicDepth() const noexcept override { return true; }
   void draw(const Picture& picture, std::span<const Mesh* const> meshes) override;
   void forget(const Mesh& mesh) override { buffers_.forget(mesh); }
   void release() override;
@@ -42,17 +43,21 @@ class ShaderPainter final : public TerrainPainter {
 
  private:
   ShaderPainter() = default;
-  Result<void> link();
+  struct Programs {
+    ShaderProgram ground, water, deep;
+  };
+  static Result<void> link(Programs& programs, const char* depth);
+  const Programs& prepare(const Picture& picture, const Anchor& anchor) const;
   void makeNoise();
   void makeWater();
-  void drawGround(const Sample& anchor, std::span<const Mesh* const> meshes);
+  void drawGround(const ShaderProgram& program, const Sample& anchor, std::span<const Mesh* const> meshes);
   /// Before the ground: the opaque water, and behind everything what one sees deep in the clear water.
-  void drawFarWater() const;
+  void drawFarWater(const Programs& programs) const;
   /// After the ground.
-  void drawClearWater() const;
+  void drawClearWater(const ShaderProgram& program) const;
   void drawRings(int first, int count) const;
 
-  ShaderProgram ground_, water_, deep_;
+  Programs ordinary_, logarithmic_;  // by the depth they write
   TerrainBuffers buffers_;
   unsigned noise_ = 0;
   unsigned waterVertices_ = 0, waterIndices_ = 0;

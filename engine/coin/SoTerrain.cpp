@@ -23,6 +23,7 @@
 #include <Inventor/elements/SoGLCacheContextElement.h>
 #include <Inventor/elements/SoModelMatrixElement.h>
 #include <Inventor/elements/SoProjectionMatrixElement.h>
+#include <Inventor/elements/SoViewVolumeElement.h>
 #include <Inventor/elements/SoViewingMatrixElement.h>
 #include <Inventor/errors/SoDebugError.h>
 #include <Inventor/lists/SbStringList.h>
@@ -32,6 +33,7 @@
 #include "teren/World.h"
 
 #include "coin/FieldEngine.h"
+#include "coin/LogarithmicDepth.h"
 #include "coin/SceneChildren.h"
 #include "coin/SoTerrainMesh.h"
 #include "coin/TerrainLook.h"
@@ -107,6 +109,7 @@ class SoTerrain::Private {
   std::string worldFile;     // where the file named by `world` is
   SbString fieldError, originError, budgetError, hazeError;
   std::size_t drawnTriangles = 0;
+  bool drewLogarithmicDepth = false;
 };
 
 // --- The engine of a node that lives by its fields
@@ -219,6 +222,12 @@ teren::Picture SoTerrain::Private::look(SoState* state) const {
   picture.viewDistance = std::max(distance, 1.0F);
   picture.waterLevel = isWet() ? node.waterLevel.getValue() : kDry;
   picture.haze = haze;
+  const SbDPViewVolume& seen = SoViewVolumeElement::get(state).getDPViewVolume();
+  if (node.logarithmicDepth.getValue() != FALSE && seen.getProjectionType() == SbDPViewVolume::PERSPECTIVE &&
+      seen.getNearDist() > 0.0) {
+    picture.depthScale = teren::depthScale(static_cast<float>(seen.getNearDist()),
+                                           static_cast<float>(seen.getNearDist() + seen.getDepth()));
+  }
   return picture;
 }
 
@@ -298,6 +307,7 @@ SoTerrain::SoTerrain() {
   SO_NODE_ADD_FIELD(waterLevel, (-150.0F));
   SO_NODE_ADD_FIELD(origin, (SbVec3d(0.0, 0.0, 0.0)));
   SO_NODE_ADD_FIELD(hazeColor, (SbColor(0.76F, 0.84F, 0.92F)));
+  SO_NODE_ADD_FIELD(logarithmicDepth, (FALSE));
   private_ = std::make_unique<Private>(*this);
 }
 
@@ -347,6 +357,10 @@ std::size_t SoTerrain::bufferBytes() const {
 
 std::size_t SoTerrain::drawnTriangles() const {
   return private_->drawnTriangles;
+}
+
+SbBool SoTerrain::drewLogarithmicDepth() const {
+  return private_->drewLogarithmicDepth ? TRUE : FALSE;
 }
 
 SbBool SoTerrain::affectsState() const {
@@ -465,7 +479,7 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
   }
   for (const teren::Mesh* mesh : meshes) private_->drawnTriangles += mesh->indices->size() / 3;
   const auto context = static_cast<std::uint32_t>(SoGLCacheContextElement::get(state));
-  private_->renderer.draw(context, picture, meshes);
+  private_->drewLogarithmicDepth = private_->renderer.draw(context, picture, meshes);
   if (private_->source.engine() != nullptr) {
     private_->source.engine()->setRendererBytes(private_->renderer.bytes());
   }

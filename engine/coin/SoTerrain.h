@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <Inventor/fields/SoMFString.h>
+#include <Inventor/fields/SoSFBool.h>
 #include <Inventor/fields/SoSFColor.h>
 #include <Inventor/fields/SoSFFloat.h>
 #include <Inventor/fields/SoSFInt32.h>
@@ -47,6 +48,7 @@ class Scene;
 ///     waterLevel    -150              # [m]
 ///     origin        0 0 0             # [m]
 ///     hazeColor     0.76 0.84 0.92
+///     logarithmicDepth FALSE
 ///   }
 /// \endcode
 class SoTerrain : public SoNode {
@@ -83,6 +85,12 @@ class SoTerrain : public SoNode {
   SoSFVec3d origin;
   /// What the ground fades into, each part 0 ... 1; give the background the same colour.
   SoSFColor hazeColor;
+  /// Whether depths are written as LogarithmicDepth.h has them, the same share of every distance, instead of
+  /// as clipping planes far apart make them, all of them near the eye: without flicker from 0.5 m to 100 km.
+  /// For a scene in which everything drawn with a depth does so; shapes that do not would hide, or be hidden,
+  /// at wrong distances. Hidden ground is then computed too, which costs frame rate. Without shaders, and
+  /// under a camera without perspective, it does nothing: ask drewLogarithmicDepth().
+  SoSFBool logarithmicDepth;
 
   /// Shows this snapshot; from now on the node has no engine, and the fields that describe the world, the
   /// view level and the budget are ignored (viewDistance is the haze's). Cheap when the snapshot is the one
@@ -105,6 +113,8 @@ class SoTerrain : public SoNode {
   std::size_t bufferBytes() const;
   /// Triangles of ground drawn by the last GL traversal, after culling.
   std::size_t drawnTriangles() const;
+  /// Whether the last GL traversal that drew anything wrote logarithmic depths.
+  SbBool drewLogarithmicDepth() const;
 
   SbBool affectsState() const override;
   void notify(SoNotList* list) override;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include <Inventor/SbColor.h>
 #include <Inventor/SbDPMatrix.h>
+#include <Inventor/SbVec2f.h>
 #include <Inventor/SbVec3d.h>
 #include <Inventor/SbVec3f.h>
 
@@ -36,6 +38,8 @@ struct Picture {
   bool water = false;                  ///< whether there is any to draw
   float waterLevel = 0.0F;             ///< [m] absolute, finite also where there is no water
   SbColor haze{1.0F, 1.0F, 1.0F};
+  /// Of the depth as LogarithmicDepth.h has it; empty: the ordinary depth.
+  std::optional<SbVec2f> depthScale = {};
 };
 
 /// Draws meshes in one GL context and keeps what that takes. All members but forget() and bytes() need the
@@ -44,6 +48,8 @@ class TerrainPainter {
  public:
   virtual ~TerrainPainter() = default;
 
+  /// Whether it heeds Picture::depthScale.
+  virtual bool knowsLogarithmicDepth() const noexcept = 0;
   /// Draws the meshes, which are best sorted front to back, then the water.
   virtual void draw(const Picture& picture, std::span<const Mesh* const> meshes) = 0;
   /// The mesh will not be drawn again and may die.

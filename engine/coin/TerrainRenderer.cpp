@@ -41,11 +41,12 @@ TerrainRenderer::~TerrainRenderer() {
   }
 }
 
-void TerrainRenderer::draw(std::uint32_t context, const Picture& picture,
+bool TerrainRenderer::draw(std::uint32_t context, const Picture& picture,
                            std::span<const Mesh* const> meshes) {
   std::unique_ptr<TerrainPainter>& painter = painters_[context];
   if (!painter) painter = makePainter();
   painter->draw(picture, meshes);
+  return picture.depthScale.has_value() && painter->knowsLogarithmicDepth();
 }
 
 void TerrainRenderer::forget(const Mesh& mesh) {

@@ -1,10 +1,16 @@
-// The GLSL programs that draw ground and water, for OpenGL 2.1.
+// The GLSL programs that draw ground and water, for OpenGL 2.1. Before a fragment shader comes kVersion and
+// either kOrdinaryDepth or kLogarithmicDepthShader.
 #pragma once
 
 namespace teren {
 
 /// Numbers of the vertex attributes.
 enum GroundAttribute : unsigned { kCell = 0, kHeight = 1, kSlope = 2, kPlace = 3 };
+
+inline constexpr char kVersion[] = "#version 120\n";
+
+/// What the rasterizer makes of the depth, so that hidden fragments need not be computed.
+inline constexpr char kOrdinaryDepth[] = "void writeDepth() {}\n";
 
 /// Watertight by arithmetic: `cell * place.z + place.xy` is a whole number below 2^24, so it is exact and
 /// equal for the shared vertices of neighbouring meshes, whichever mesh it is counted from; everything after
@@ -45,7 +51,7 @@ void main() {
 }
 )";
 
-inline constexpr char kGroundFragmentShader[] = R"(#version 120
+inline constexpr char kGroundFragmentShader[] = R"(
 uniform sampler2D noise;
 uniform vec3 haze;
 uniform vec3 deep;  // what the water swallows
@@ -84,6 +90,7 @@ void main() {
   // Where the view ends the water ends too, and haze covers what is left, deep or not.
   vec3 seen = mix(deep, mix(colour, haze, ground.w), exp2(-0.13 * max(depth, 0.0)));
   gl_FragColor = vec4(mix(seen, haze, smoothstep(0.97, 1.0, ground.w)), 1.0);
+  writeDepth();
 }
 )";
 
@@ -113,7 +120,7 @@ void main() {
 }
 )";
 
-inline constexpr char kWaterFragmentShader[] = R"(#version 120
+inline constexpr char kWaterFragmentShader[] = R"(
 uniform sampler2D noise;
 uniform vec3 haze;
 uniform vec3 deep;
@@ -144,14 +151,18 @@ void main() {
   vec3 colour = mix(deep * 1.15, sky, fresnel) + sunlight * glint;
   float cover = max(0.62 + 0.38 * opaque, max(fresnel, glint));
   gl_FragColor = vec4(mix(colour, haze, view.w), mix(cover, 1.0, view.w));
+  writeDepth();
 }
 )";
 
 /// The same disc, far below and behind everything.
-inline constexpr char kDeepFragmentShader[] = R"(#version 120
+inline constexpr char kDeepFragmentShader[] = R"(
 uniform vec3 deep;
 
-void main() { gl_FragColor = vec4(deep, 1.0); }
+void main() {
+  gl_FragColor = vec4(deep, 1.0);
+  writeDepth();
+}
 )";
 
 }  // namespace teren

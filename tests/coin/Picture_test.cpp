@@ -247,6 +247,27 @@ TEST_F(Landscape, LooksMuchTheSameWithoutShaders) {
   EXPECT_LT(difference / (640.0 * 360.0), 40.0);
 }
 
+TEST_F(Landscape, LooksTheSameByEitherDepth) {
+  terrain_->waterLevel = static_cast<float>(ground_ + 20.0);
+  stage_.camera->farDistance = 3000.0F;
+  for (const double heading : {0.0, 120.0, 240.0}) {
+    stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + 60.0)), heading, -10.0);
+    terrain_->logarithmicDepth = FALSE;
+    picture();  // uploads
+    const QImage ordinary = picture();
+    terrain_->logarithmicDepth = TRUE;
+    const QImage logarithmic = picture();
+    ASSERT_TRUE(terrain_->drewLogarithmicDepth());
+    int different = 0;
+    for (int y = 0; y < ordinary.height(); ++y) {
+      for (int x = 0; x < ordinary.width(); ++x) {
+        different += ordinary.pixel(x, y) != logarithmic.pixel(x, y) ? 1 : 0;
+      }
+    }
+    EXPECT_LT(different, 200) << "of " << 640 * 360 << " pixels, heading " << heading;
+  }
+}
+
 TEST_F(Landscape, TakesItsSunFromTheFirstDirectionalLight) {
   terrain_->waterLevel = -2e6F;  // it mirrors the sky
   stage_.look(SbVec3f(0.0F, 0.0F, static_cast<float>(ground_ + 300.0)), 90.0, -40.0);

@@ -66,16 +66,18 @@ TEST(SoTerrain, IsReadFromAFileAndWrittenBackWithItsFieldsOnly) {
   const std::string text =
       "#Inventor V2.1 ascii\n\nSeparator {\n  SoTerrain {\n    seed \"42\"\n    parameters [ ]\n    "
       "viewDistance 100\n"
-      "    viewLevel 0\n    waterLevel -100\n    origin 64 128 5\n  }\n}\n";
+      "    viewLevel 0\n    waterLevel -100\n    origin 64 128 5\n    logarithmicDepth TRUE\n  }\n}\n";
   SoNode* root = readScene(text);
   auto* terrain = static_cast<SoTerrain*>(static_cast<SoSeparator*>(root)->getChild(0));
   ASSERT_TRUE(terrain->isOfType(SoTerrain::getClassTypeId()));
   EXPECT_STREQ(terrain->seed.getValue().getString(), "42");
+  EXPECT_TRUE(terrain->logarithmicDepth.getValue());
   const std::string before = writeScene(root);
   terrain->settle();
   EXPECT_GT(terrain->getChildren()->getLength(), 0);
   const std::string after = writeScene(root);
   EXPECT_EQ(after, before);
+  EXPECT_NE(after.find("logarithmicDepth TRUE"), std::string::npos) << after;
   EXPECT_EQ(after.find("TerrainMesh"), std::string::npos);
 
   SoNode* again = readScene(after);
