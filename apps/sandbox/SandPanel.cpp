@@ -23,7 +23,9 @@ ParameterPanel* formOf(const char* name, std::span<const Parameter> table, QWidg
   PluginInfo info;  // the panel knows tables by the plugins they are of
   info.id = name;
   info.parameters = table;
-  return new ParameterPanel(info, parent);
+  auto* form = new ParameterPanel(info, parent);
+  form->setObjectName(QString::fromLatin1(name) + QStringLiteral("Form"));
+  return form;
 }
 
 /// The values a form shows.
@@ -76,6 +78,9 @@ SandPanel::SandPanel(SandPanelActions actions, QWidget* parent)
   progress_->setRange(0, 0);  // nobody knows how far sand will slide
   progress_->setTextVisible(false);
   progress_->setMaximumHeight(6);
+  QSizePolicy kept = progress_->sizePolicy();
+  kept.setRetainSizeWhenHidden(true);  // else all would jump when work begins
+  progress_->setSizePolicy(kept);
   layout->addWidget(progress_);
   showProgress({});
 }
@@ -105,8 +110,6 @@ QWidget* SandPanel::makeBeginning() {
   auto* page = new QWidget(this);
   auto* layout = new QVBoxLayout(page);
   ground_ = formOf("ground", SandGround::parameters(), page);
-  // Both forms have a size and a depth; a part is found by its form's name and its own.
-  ground_->setObjectName(QStringLiteral("ground"));
   layout->addWidget(ground_);
   auto* make = new QPushButton(QStringLiteral("Make new sand"), page);
   make->setObjectName(QStringLiteral("make"));

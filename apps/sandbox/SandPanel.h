@@ -29,8 +29,8 @@ struct SandPanelActions {
 };
 
 /// A QWidget like any other; all calls from the GUI thread. Fields change nothing by themselves but through
-/// the actions. A part that a test or a script looks for is found by its object name: the parameters by
-/// theirs, the buttons "undo", "redo", "save", "load", "export" and "make".
+/// the actions. Its parts are found by their object names: "toolForm", "sandForm" and "groundForm" with the
+/// parameters by theirs inside, the buttons "undo", "redo", "save", "load", "export" and "make".
 class SandPanel : public QWidget {
  public:
   SandPanel(SandPanelActions actions, QWidget* parent);

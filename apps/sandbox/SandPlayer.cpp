@@ -28,7 +28,7 @@ Result<void> SandPlayer::checkRest() {
 
 Result<bool> SandPlayer::play(const Over& over) {
   const auto failed = [this](const std::string& sentence) {
-    return script_.errorAt(script_.commands()[next_ - 1], sentence);
+    return next_ == 0 ? Error{sentence} : script_.errorAt(script_.commands()[next_ - 1], sentence);
   };
   for (;;) {
     if (pending()) session_.work([&] { return !pending() || over(); });
@@ -37,9 +37,7 @@ Result<bool> SandPlayer::play(const Over& over) {
       if (over()) return false;
       continue;
     }
-    if (next_ > 0) {
-      if (const Result<void> rests = checkRest(); !rests) return failed(rests.error().message);
-    }
+    if (const Result<void> rests = checkRest(); !rests) return failed(rests.error().message);
     if (quits_ || next_ == script_.commands().size()) return true;
     const SandCommand& command = script_.commands()[next_++];
     failure_ = kWrongInput;

@@ -12,7 +12,8 @@
 #include <QCloseEvent>
 #include <QFileDialog>
 #include <QHBoxLayout>
-#include <QKeyEvent>
+#include <QScrollArea>
+#include <QStyle>
 #include <QVBoxLayout>
 
 #include "apps/sandbox/SandFile.h"
@@ -76,11 +77,18 @@ void SandWindow::layOut(QSize size) {
   auto* both = new QHBoxLayout;
   both->addWidget(area_->getWidget(), 1);
   panel_ = new SandPanel(panelActions(), this);
-  both->addWidget(panel_);
+  auto* scrolled = new QScrollArea(this);  // so that the window may be lower than the panel
+  scrolled->setWidget(panel_);
+  scrolled->setWidgetResizable(true);
+  scrolled->setFrameShape(QFrame::NoFrame);
+  scrolled->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scrolled->setFixedWidth(panel_->width() + style()->pixelMetric(QStyle::PM_ScrollBarExtent));
+  both->addWidget(scrolled);
   layout->addLayout(both, 1);
   auto* help = new QLabel(QString::fromStdString(sandHelp()), this);
   help->setMargin(3);
   help->setWordWrap(true);
+  help->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   layout->addWidget(help);
   resize(size);
 }
@@ -102,6 +110,7 @@ SandPanelActions SandWindow::panelActions() {
 
 void SandWindow::begin(const SandScript* script, std::optional<Clock::duration> duration) {
   duration_ = duration;
+  beginning_ = session_.arriving();
   if (script != nullptr) player_ = std::make_unique<SandPlayer>(*script, session_, this, std::cout);
   noticeNewSand();
   showState();
@@ -132,7 +141,9 @@ void SandWindow::compute(Clock::time_point until) {
   const auto over = [until] { return Clock::now() >= until; };
   const Clock::time_point begin = Clock::now();
   const bool works = player_ != nullptr || !session_.idle();
-  if (player_ != nullptr) {
+  if (beginning_) {
+    receiveFirst(over);
+  } else if (player_ != nullptr) {
     if (frameTimes_.count() >= kFramesAtLeast) playOn(over);
   } else if (works) {
     session_.work(over);
@@ -144,12 +155,22 @@ void SandWindow::compute(Clock::time_point until) {
   }
 }
 
+/// The sand that the window begins with; without it there is no sense in going on.
+void SandWindow::receiveFirst(const SandSession::Over& over) {
+  session_.work([this, &over] { return !session_.arriving() || over(); });
+  beginning_ = session_.arriving();
+  if (beginning_ || session_.sands() > 0) return;
+  for (const std::string& message : session_.takeMessages()) error_ = Error{message};
+  failure_ = kWrongInput;
+  leaving_ = true;
+}
+
 void SandWindow::playOn(const SandPlayer::Over& over) {
   const Result<bool> played = player_->play(over);
   if (played && !*played) return;
   if (!played) {
-    scriptError_ = played.error();
-    scriptFailure_ = player_->failure();
+    error_ = played.error();
+    failure_ = player_->failure();
   }
   leaving_ = leaving_ || !played || player_->quits();
   player_.reset();
@@ -157,6 +178,10 @@ void SandWindow::playOn(const SandPlayer::Over& over) {
 
 void SandWindow::publish() {
   noticeNewSand();
+  if (std::exchange(moisture_, session_.moisture()) != session_.moisture()) {
+    scene_.setMoisture(moisture_);
+    dirty_ = true;
+  }
   std::shared_ptr<const SandSnapshot> now = session_.publish();
   if (now == shown_) return;
   shown_ = std::move(now);
@@ -247,8 +272,6 @@ void SandWindow::setSand(const Values& values) {
   session_.setRepose(values.real("repose"), values.real("moisture"));
   session_.setSlides(values.boolean("slides"));
   if (values.boolean("wireframe") != wireframe_) setWireframe(!wireframe_);
-  scene_.setMoisture(values.real("moisture"));
-  dirty_ = true;
 }
 
 void SandWindow::save(const std::string& file) {

@@ -43,12 +43,14 @@ class SandWindow : public QWidget, public SandStage {
 
   /// Shows the window, plays the script (if any; it must outlive the window), and from then on obeys the
   /// person. Leaves QApplication::exec() when the person quits or asks by a signal, `duration` after the
-  /// script's end, or when the script fails or says so. What commands print goes to standard output.
+  /// script's end, or when the sand to begin with does not come, or the script fails or says so. What
+  /// commands print goes to standard output.
   void begin(const SandScript* script, std::optional<Clock::duration> duration);
 
-  /// Why the script failed, and with what the program should end then.
-  const std::optional<Error>& scriptError() const noexcept { return scriptError_; }
-  ExitCode scriptFailure() const noexcept { return scriptFailure_; }
+  /// Why it ended by itself: the sand to begin with did not come, or the script failed; and with what the
+  /// program should end then.
+  const std::optional<Error>& error() const noexcept { return error_; }
+  ExitCode failure() const noexcept { return failure_; }
 
   /// As the buttons do once a file is named; what fails is said in the panel and on standard error.
   void save(const std::string& file);
@@ -86,6 +88,7 @@ class SandWindow : public QWidget, public SandStage {
   void layOut(QSize size);
   void tick();
   void compute(Clock::time_point until);
+  void receiveFirst(const SandSession::Over& over);
   void playOn(const SandPlayer::Over& over);
   void publish();
   void draw(Clock::time_point begin);
@@ -132,7 +135,9 @@ class SandWindow : public QWidget, public SandStage {
   QTimer timer_;
   std::optional<Clock::duration> duration_;
   Clock::time_point end_ = Clock::time_point::max(), lastFigures_{};
+  double moisture_ = 0.0;  // as it is shown
   bool wireframe_, dirty_ = true, leaving_ = false;
+  bool beginning_ = false;   // the sand to begin with is still on its way
   std::uint64_t sands_ = 0;  // SandSession::sands() when the camera was placed
 
   Drag drag_ = Drag::none;
@@ -140,8 +145,8 @@ class SandWindow : public QWidget, public SandStage {
   ToolPlace dragPlace_;         // where the tool was last
   unsigned long dragTime_ = 0;  // [ms] then
 
-  std::optional<Error> scriptError_;
-  ExitCode scriptFailure_ = kWorkFailed;
+  std::optional<Error> error_;
+  ExitCode failure_ = kWorkFailed;
   FrameStatistics frameTimes_, workTimes_;
   QImage lastPicture_;
 };

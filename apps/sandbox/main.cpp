@@ -186,9 +186,9 @@ Result<void> showSand(const SandOptions& options, ExitCode& failure) {
   }
   window.begin(options.script ? &*options.script : nullptr, duration);
   QApplication::exec();
-  if (window.scriptError()) {
-    failure = window.scriptFailure();
-    return *window.scriptError();
+  if (window.error()) {
+    failure = window.failure();
+    return *window.error();
   }
   return saveResults(options, window, *session);
 }
