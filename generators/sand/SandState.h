@@ -22,7 +22,7 @@ namespace teren {
 /// Sections are little endian, as memory is on the machines that Teren runs on.
 class SandState {
  public:
-  /// One number for each, then arrays of one kind each. Their order is the archive's.
+  /// All single numbers, then the arrays. Their order is the archive's.
   enum Section : std::size_t {
     kNumbers,
     kVertices,
@@ -73,7 +73,7 @@ class SandState {
     std::uint32_t freeVertex = 0, freeTriangle = 0;
     std::int32_t cellShift = 0;
     std::uint32_t nextId = 0, near = 0, keptId = 0;
-    std::uint64_t unused = 0;  // up to the alignment
+    std::uint64_t padding = 0;  // so that all bytes are somebody's
   };
   static_assert(sizeof(Numbers) == 256 && sizeof(SandSettings) == 56, "a new number is a new format");
 
