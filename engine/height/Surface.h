@@ -43,14 +43,18 @@ struct PackedNormal {
 /// divided by the cosine of the slope.
 inline constexpr double kPackedNormalError = 2.2e-4;
 
-/// The normal of a vertex from its four neighbours [m], `spacing` [m] away each.
-inline PackedNormal vertexNormal(float west, float east, float south, float north, double spacing) noexcept {
-  const double nx = static_cast<double>(west) - static_cast<double>(east);
-  const double ny = static_cast<double>(south) - static_cast<double>(north);
+/// The normal of a vertex by how far [m] the ground falls to the east and to the north over 2 `spacing` [m].
+inline PackedNormal normalOfFalls(double nx, double ny, double spacing) noexcept {
   const double nz = 2.0 * spacing;
   const double scale = 32767.0 / std::sqrt(nx * nx + ny * ny + nz * nz);
   return {static_cast<std::int16_t>(std::floor(nx * scale + 0.5)),
           static_cast<std::int16_t>(std::floor(ny * scale + 0.5))};
+}
+
+/// The normal of a vertex from its four neighbours [m], `spacing` [m] away each.
+inline PackedNormal vertexNormal(float west, float east, float south, float north, double spacing) noexcept {
+  return normalOfFalls(static_cast<double>(west) - static_cast<double>(east),
+                       static_cast<double>(south) - static_cast<double>(north), spacing);
 }
 
 /// The unit normal of a triangle with the given slopes [m per side] and side [m]; its zeros are never -0.

@@ -1,8 +1,5 @@
 #include "patch/MeshTask.h"
 
-#include <algorithm>
-#include <limits>
-
 #include "height/Surface.h"
 
 namespace teren {
@@ -17,6 +14,7 @@ PieceExtent pieceExtent(Piece piece, int intervals) noexcept {
     case Piece::northSeam:
       return {1, intervals - 1, inside, 2};
     case Piece::cornerPiece:
+    case Piece::border:
       break;
   }
   return {intervals - 1, intervals - 1, 2, 2};
@@ -50,16 +48,13 @@ MeshTask::MeshTask(NodeBlock block, Piece piece, double spacing, GridIndices& in
     : block_(std::move(block)),
       intervals_(block_.nodes[0]->columns() - 1),
       extent_(pieceExtent(piece, intervals_)),
-      spacing_(spacing),
-      mesh_(std::make_shared<Mesh>()) {
+      spacing_(spacing) {
   const std::int64_t stride = std::int64_t{1} << block_.key.level;
   mesh_->level = block_.key.level;
   mesh_->originColumn = (block_.key.i * intervals_ + extent_.firstColumn) * stride;
   mesh_->originRow = (block_.key.j * intervals_ + extent_.firstRow) * stride;
   mesh_->columns = extent_.columns;
   mesh_->rows = extent_.rows;
-  mesh_->minHeight = std::numeric_limits<float>::infinity();
-  mesh_->maxHeight = -std::numeric_limits<float>::infinity();
   mesh_->indices = indices.get(extent_.columns, extent_.rows);
 }
 
@@ -101,9 +96,7 @@ void MeshTask::buildRow(int row) {
                                              heightAt(x, y + 1), spacing_);
     vertex.normalX = normal.x;
     vertex.normalY = normal.y;
-    mesh_->minHeight = std::min(mesh_->minHeight, vertex.height);
-    mesh_->maxHeight = std::max(mesh_->maxHeight, vertex.height);
-    mesh_->vertices.push_back(vertex);
+    addVertex(vertex);
   }
 }
 

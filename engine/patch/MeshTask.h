@@ -1,4 +1,5 @@
-// Meshes of nodes, seams and corner pieces: rectangles of vertices over one to four neighbouring nodes.
+// Meshes of nodes, seams and corner pieces of one level: rectangles of vertices over one to four neighbouring
+// nodes.
 #pragma once
 
 #include <array>
@@ -10,9 +11,9 @@
 
 #include "teren/HeightMap.h"
 #include "teren/Scene.h"
-#include "teren/Slice.h"
 
 #include "patch/NodeKey.h"
+#include "patch/PieceTask.h"
 
 namespace teren {
 
@@ -25,20 +26,23 @@ struct NodeBlock {
   std::array<NodeHeights, 4> nodes;
 };
 
-/// The pieces that together cover the plane once: a node's mesh leaves out its outermost ring of squares, a
-/// seam is two squares wide and joins two nodes, a corner piece is 2 x 2 squares and joins four.
+/// The pieces that together cover the plane once: a node's mesh leaves out its outermost ring of squares.
+/// Between nodes of one level a seam is two squares wide and joins two of them, a corner piece is 2 x 2
+/// squares and joins four. Where nodes of different levels meet, what is left out is filled by each node's
+/// border.
 enum class Piece : std::uint8_t {
-  interior,    ///< of the block's south-west node
-  eastSeam,    ///< between it and its eastern neighbour
-  northSeam,   ///< between it and its northern neighbour
-  cornerPiece  ///< at its north-east corner
+  interior,     ///< of the block's south-west node
+  eastSeam,     ///< between it and its eastern neighbour
+  northSeam,    ///< between it and its northern neighbour
+  cornerPiece,  ///< at its north-east corner
+  border        ///< of the node: its half of the seams to other levels (BorderTask)
 };
 
 /// Vertices of a piece, in samples of the block's level from the south-west corner of its south-west node.
 struct PieceExtent {
   int firstColumn = 0, firstRow = 0, columns = 0, rows = 0;  ///< squares, not vertices
 };
-/// `intervals` >= 2 is n.
+/// `intervals` >= 2 is n. Of all pieces but a border, whose extent depends on what it joins.
 PieceExtent pieceExtent(Piece piece, int intervals) noexcept;
 /// Bytes of the mesh of such a piece.
 std::size_t pieceBytes(Piece piece, int intervals) noexcept;
@@ -54,17 +58,15 @@ class GridIndices {
   std::map<std::pair<int, int>, std::shared_ptr<const TriangleIndices>> lists_;
 };
 
-/// Builds a piece in slices of rows. Positions are copied from the nodes and normals are central differences
-/// over them, so neighbouring pieces - and one big monolithic map - have equal bits at shared vertices.
-class MeshTask final : public SlicedTask {
+/// Builds a piece between nodes of one level, in slices of rows. Positions are copied from the nodes and
+/// normals are central differences over them, so neighbouring pieces - and one big monolithic map - have
+/// equal bits at shared vertices.
+class MeshTask final : public PieceTask {
  public:
   /// `spacing` [m] of the block's level. A piece of no squares gives an empty mesh. `indices` is used by the
   /// constructor alone, so that steps may run on any thread.
   MeshTask(NodeBlock block, Piece piece, double spacing, GridIndices& indices);
   bool step(const Slice& slice) override;
-
-  /// Complete, but for its id, once step has returned true.
-  std::shared_ptr<Mesh> takeResult() noexcept { return std::move(mesh_); }
 
  private:
   float heightAt(int column, int row) const;
@@ -74,7 +76,6 @@ class MeshTask final : public SlicedTask {
   int intervals_;
   PieceExtent extent_;
   double spacing_;
-  std::shared_ptr<Mesh> mesh_;
   int nextRow_ = 0;
 };
 

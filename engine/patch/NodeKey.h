@@ -23,6 +23,14 @@ struct NodeKey {
   friend bool operator==(const NodeKey&, const NodeKey&) = default;
 };
 
+/// Whether the squares of two nodes have a point in common, be it only a corner.
+inline bool touch(const NodeKey& a, const NodeKey& b) noexcept {
+  const auto meet = [&](std::int64_t low, std::int64_t other) {
+    return low << a.level <= (other + 1) << b.level && other << b.level <= (low + 1) << a.level;
+  };
+  return meet(a.i, b.i) && meet(a.j, b.j);
+}
+
 /// The node of a level that a position lies in.
 inline NodeKey nodeAt(const Position& position, int level) noexcept {
   return NodeKey{0, position.i, position.j}.ancestor(level);

@@ -44,6 +44,16 @@ class PatchTree {
     }
   }
 
+  /// Calls visit(key, data) for every node with data, of whatever level, whose square and that of `key` have
+  /// a point in common, be it only a corner; `key` itself and what overlaps it included. Costs O(depth) for
+  /// each.
+  template <class Visit>
+  void forEachTouching(const NodeKey& key, Visit&& visit) const {
+    for (const Root& root : roots_) {
+      if (root.node) forEachTouchingBelow(*root.node, root.key, key, visit);
+    }
+  }
+
   /// Level of the root of the quadrant `key` lies in, -1 where there is none.
   int rootLevel(const NodeKey& key) const noexcept {
     const Root& root = roots_[quadrant(key)];
@@ -77,14 +87,26 @@ class PatchTree {
   void growRoot(Root& root, const NodeKey& key);
   bool eraseBelow(std::unique_ptr<Node>& node, int level, const NodeKey& key);
 
+  static NodeKey childOf(const NodeKey& key, std::size_t child) noexcept {
+    return {key.level - 1, key.i * 2 + static_cast<std::int64_t>(child & 1),
+            key.j * 2 + static_cast<std::int64_t>(child >> 1)};
+  }
+
+  template <class Visit>
+  static void forEachTouchingBelow(const Node& node, const NodeKey& at, const NodeKey& key, Visit& visit) {
+    if (!touch(at, key)) return;
+    if (node.data) visit(at, node.data);
+    for (std::size_t child = 0; child < 4; ++child) {
+      if (node.children[child]) forEachTouchingBelow(*node.children[child], childOf(at, child), key, visit);
+    }
+  }
+
   template <class Visit>
   static void forEachBelow(const Node& node, const NodeKey& key, Visit& visit) {
     if (node.data) visit(key, node.data);
     for (std::size_t child = 0; child < 4; ++child) {
       if (!node.children[child]) continue;
-      const NodeKey below{key.level - 1, key.i * 2 + static_cast<std::int64_t>(child & 1),
-                          key.j * 2 + static_cast<std::int64_t>(child >> 1)};
-      forEachBelow(*node.children[child], below, visit);
+      forEachBelow(*node.children[child], childOf(key, child), visit);
     }
   }
 

@@ -1,4 +1,5 @@
-// Joins finished nodes to the drawn set: their meshes, and the seams and corner pieces to what is drawn.
+// Joins finished nodes to the drawn set: their meshes, and the seams and corner pieces to what is drawn
+// beside them.
 #pragma once
 
 #include <cstddef>
@@ -8,31 +9,31 @@
 
 #include "teren/Slice.h"
 
-#include "patch/MeshTask.h"
+#include "patch/PieceTask.h"
 #include "stream/NodeStore.h"
 
 namespace teren {
 
-/// Builds all pieces of a batch of nodes, on any thread. It holds what it reads; what it built is drawn by
-/// NodeStore::draw, node by node in the batch's order, unless the drawn set has changed meanwhile.
+/// Builds all pieces that a change of the drawn set needs, on any thread. It holds what it reads; what it
+/// built is drawn by NodeStore::apply, unless the drawn set has changed meanwhile.
 class JoinTask final : public SlicedTask {
  public:
-  struct Joined {
-    NodeKey node;
-    std::vector<BuiltPiece> pieces;
-  };
-
-  /// `batch`: nodes held and not drawn, in the order in which they will be drawn.
-  JoinTask(NodeStore& nodes, std::span<const NodeKey> batch);
+  /// See NodeStore::plan.
+  JoinTask(NodeStore& nodes, DrawnChange change);
   bool step(const Slice& slice) override;
 
+  const DrawnChange& change() const noexcept { return change_; }
   /// Complete once step has returned true.
-  std::vector<Joined>& joined() noexcept { return joined_; }
+  std::span<const BuiltPiece> pieces() const noexcept { return pieces_; }
+  /// [bytes] of the pieces, at most.
+  std::size_t bytes() const noexcept { return bytes_; }
 
  private:
-  std::vector<Joined> joined_;
-  std::vector<std::unique_ptr<MeshTask>> tasks_;  // all pieces of all nodes, in order
-  std::size_t node_ = 0, piece_ = 0, task_ = 0;
+  DrawnChange change_;
+  std::size_t bytes_ = 0;
+  std::vector<BuiltPiece> pieces_;
+  std::vector<std::unique_ptr<PieceTask>> tasks_;  // of the pieces, in order
+  std::size_t next_ = 0;
 };
 
 }  // namespace teren

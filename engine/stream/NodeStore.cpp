@@ -1,7 +1,9 @@
 #include "stream/NodeStore.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <tuple>
 #include <utility>
 
 #include "teren/HeightSampling.h"
@@ -11,38 +13,21 @@ namespace teren {
 namespace {
 
 // The containers' own nodes and the blocks that count references, as allocated (estimated).
-constexpr std::size_t kBytesPerDrawnNode = 64;
-constexpr std::size_t kBytesPerPiece = 224;     // in two maps and a scene
+constexpr std::size_t kBytesPerPiece = 256;     // in two maps and a scene
 constexpr std::size_t kTreeBytesPerNode = 160;  // leaf, control block, its share of the branches
 
+constexpr std::array<Piece, 5> kPieces{Piece::interior, Piece::eastSeam, Piece::northSeam, Piece::cornerPiece,
+                                       Piece::border};
+
+bool byLevelAndKey(const NodeKey& a, const NodeKey& b) noexcept {
+  return std::tie(a.level, a.j, a.i) < std::tie(b.level, b.j, b.i);
+}
+
+bool isIn(const NodeKey& inner, const NodeKey& outer) noexcept {
+  return inner.level <= outer.level && inner.ancestor(outer.level) == outer;
+}
+
 }  // namespace
-
-std::vector<NodeKey> nodesOf(const PieceName& name) {
-  const NodeKey& key = name.key;
-  switch (name.piece) {
-    case Piece::interior:
-      return {key};
-    case Piece::eastSeam:
-      return {key, key.neighbour(1, 0)};
-    case Piece::northSeam:
-      return {key, key.neighbour(0, 1)};
-    case Piece::cornerPiece:
-      break;
-  }
-  return {key, key.neighbour(1, 0), key.neighbour(0, 1), key.neighbour(1, 1)};
-}
-
-std::array<PieceName, 9> piecesOf(const NodeKey& node) {
-  return {{{node, Piece::interior},
-           {node, Piece::eastSeam},
-           {node.neighbour(-1, 0), Piece::eastSeam},
-           {node, Piece::northSeam},
-           {node.neighbour(0, -1), Piece::northSeam},
-           {node, Piece::cornerPiece},
-           {node.neighbour(-1, 0), Piece::cornerPiece},
-           {node.neighbour(0, -1), Piece::cornerPiece},
-           {node.neighbour(-1, -1), Piece::cornerPiece}}};
-}
 
 NodeHeights NodeStore::heights(const NodeKey& key) const {
   const NodeHeights* found = tree_.find(key, LookUp::none);
@@ -58,23 +43,11 @@ void NodeStore::insert(const NodeKey& key, NodeHeights heights) {
 }
 
 void NodeStore::erase(const NodeKey& key) {
+  assert(!isDrawn(key));
   const NodeHeights held = heights(key);
   if (!held) return;
   heightBytes_ -= held->bytes() + sizeof(HeightMap);
   tree_.erase(key);
-  undraw(key);
-}
-
-void NodeStore::undraw(const NodeKey& key) {
-  if (drawn_.erase(key) == 0) return;
-  for (const PieceName& name : piecesOf(key)) {
-    const auto piece = pieces_.find(name);
-    if (piece == pieces_.end()) continue;
-    meshBytes_ -= meshes_.at(piece->second)->bytes();
-    meshes_.erase(piece->second);
-    pieces_.erase(piece);
-  }
-  ++serial_;
 }
 
 std::vector<NodeKey> NodeStore::nodes() const {
@@ -83,55 +56,231 @@ std::vector<NodeKey> NodeStore::nodes() const {
   return keys;
 }
 
-std::vector<PieceName> NodeStore::piecesToDraw(const NodeKey& node, const NodeSet& before) const {
-  std::vector<PieceName> wanted;
-  for (const PieceName& name : piecesOf(node)) {
-    const std::vector<NodeKey> nodes = nodesOf(name);
-    const bool complete = std::all_of(nodes.begin(), nodes.end(), [&](const NodeKey& key) {
-      return key == node || drawn_.contains(key) || before.contains(key);
+// ---- The drawn set
+
+/// The drawn set as it will be.
+struct NodeStore::Surroundings {
+  const PatchTree<NodeHeights>& drawn;
+  NodeSet removed;
+  std::vector<NodeKey> added;
+
+  /// All but `key` that touch it.
+  std::vector<NodeKey> around(const NodeKey& key) const {
+    std::vector<NodeKey> keys;
+    drawn.forEachTouching(key, [&](const NodeKey& other, const NodeHeights&) {
+      if (other != key && !removed.contains(other)) keys.push_back(other);
     });
-    if (complete) wanted.push_back(name);
+    for (const NodeKey& other : added) {
+      if (other != key && touch(other, key)) keys.push_back(other);
+    }
+    std::sort(keys.begin(), keys.end(), byLevelAndKey);
+    return keys;
   }
-  return wanted;
+};
+
+std::optional<NodeKey> NodeStore::drawnOver(const NodeKey& key) const {
+  NodeKey found;
+  if (!drawn_.find(key, LookUp::nearestCoarser, &found)) return std::nullopt;
+  return found;
 }
 
-std::unique_ptr<MeshTask> NodeStore::makePiece(const PieceName& name) {
-  NodeBlock block{name.key, {}};
-  for (const NodeKey& key : nodesOf(name)) {
-    const auto place = static_cast<std::size_t>((key.i - name.key.i) + 2 * (key.j - name.key.j));
-    block.nodes[place] = heights(key);
-    assert(block.nodes[place]);
-  }
-  const double spacing = spacing_ * static_cast<double>(std::int64_t{1} << name.key.level);
-  return std::make_unique<MeshTask>(std::move(block), name.piece, spacing, indices_);
+std::vector<NodeKey> NodeStore::drawnIn(const NodeKey& key) const {
+  std::vector<NodeKey> keys;
+  drawn_.forEachTouching(key, [&](const NodeKey& other, const NodeHeights&) {
+    if (isIn(other, key)) keys.push_back(other);
+  });
+  return keys;
 }
 
-bool NodeStore::draw(const NodeKey& node, std::span<const BuiltPiece> pieces) {
-  assert(!drawn_.contains(node) && heights(node));
-  const std::vector<PieceName> wanted = piecesToDraw(node);
-  const auto isFor = [](const BuiltPiece& built, const PieceName& name) { return built.name == name; };
-  if (!std::equal(pieces.begin(), pieces.end(), wanted.begin(), wanted.end(), isFor)) return false;
-  drawn_.insert(node);
+std::vector<NodeKey> NodeStore::drawnAround(const NodeKey& key) const {
+  std::vector<NodeKey> keys = Surroundings{drawn_, {}, {}}.around(key);
+  std::erase_if(keys, [&](const NodeKey& other) { return isIn(other, key); });
+  return keys;
+}
+
+std::vector<PiecePlan> NodeStore::piecesOwnedBy(const NodeKey& node, const Surroundings& after) const {
+  const std::vector<NodeKey> around = after.around(node);
+  const auto isThere = [&](const NodeKey& key) {
+    return std::find(around.begin(), around.end(), key) != around.end();
+  };
+  const NodeKey east = node.neighbour(1, 0), north = node.neighbour(0, 1), beyond = node.neighbour(1, 1);
+  std::vector<PiecePlan> pieces{{{node, Piece::interior}, {node}}};
+  if (isThere(east)) pieces.push_back({{node, Piece::eastSeam}, {node, east}});
+  if (isThere(north)) pieces.push_back({{node, Piece::northSeam}, {node, north}});
+  if (isThere(east) && isThere(north) && isThere(beyond)) {
+    pieces.push_back({{node, Piece::cornerPiece}, {node, east, north, beyond}});
+  }
+  if (!BorderPlan(node, around, intervals_).empty()) {
+    PiecePlan& border = pieces.emplace_back(PiecePlan{{node, Piece::border}, {node}});
+    border.nodes.insert(border.nodes.end(), around.begin(), around.end());
+  }
+  return pieces;
+}
+
+std::size_t NodeStore::plannedBytes(const PiecePlan& plan) const {
+  if (plan.name.piece != Piece::border) return pieceBytes(plan.name.piece, intervals_);
+  return BorderPlan(plan.name.key, {plan.nodes.begin() + 1, plan.nodes.end()}, intervals_).bytes();
+}
+
+ChangePlan NodeStore::plan(const DrawnChange& change) const {
+  const Surroundings after{drawn_, {change.remove.begin(), change.remove.end()}, change.add};
+  std::vector<NodeKey> affected = change.add;
+  NodeSet seen(change.add.begin(), change.add.end());
+  for (const std::vector<NodeKey>* keys : {&change.add, &change.remove}) {
+    for (const NodeKey& key : *keys) {
+      for (const NodeKey& other : after.around(key)) {
+        if (seen.insert(other).second) affected.push_back(other);
+      }
+    }
+  }
+  ChangePlan result;
+  std::unordered_set<PieceName, PieceNameHash> kept;
+  for (const NodeKey& node : affected) {
+    for (PiecePlan& piece : piecesOwnedBy(node, after)) {
+      const auto old = pieces_.find(piece.name);
+      if (old != pieces_.end() && (old->second.nodes.empty() || old->second.nodes == piece.nodes)) {
+        kept.insert(piece.name);
+      } else {
+        result.bytes += plannedBytes(piece) + kBytesPerPiece;
+        result.build.push_back(std::move(piece));
+      }
+    }
+  }
+  affected.insert(affected.end(), change.remove.begin(), change.remove.end());
+  for (const NodeKey& node : affected) {
+    for (const Piece piece : kPieces) {
+      const PieceName name{node, piece};
+      if (pieces_.contains(name) && !kept.contains(name)) result.drop.push_back(name);
+    }
+  }
+  return result;
+}
+
+std::unique_ptr<PieceTask> NodeStore::makePiece(const PiecePlan& plan) {
+  const auto held = [&](const NodeKey& key) {
+    NodeHeights found = heights(key);
+    assert(found);
+    return found;
+  };
+  if (plan.name.piece == Piece::border) {
+    std::vector<HeldNode> nodes;
+    nodes.reserve(plan.nodes.size());
+    for (const NodeKey& key : plan.nodes) nodes.push_back({key, held(key)});
+    return std::make_unique<BorderTask>(std::move(nodes), spacing_);
+  }
+  NodeBlock block{plan.name.key, {}};
+  for (const NodeKey& key : plan.nodes) {
+    const auto place = static_cast<std::size_t>((key.i - plan.name.key.i) + 2 * (key.j - plan.name.key.j));
+    block.nodes[place] = held(key);
+  }
+  const double spacing = spacing_ * static_cast<double>(std::int64_t{1} << plan.name.key.level);
+  return std::make_unique<MeshTask>(std::move(block), plan.name.piece, spacing, indices_);
+}
+
+bool NodeStore::isPossible(const DrawnChange& change) const {
+  return std::all_of(change.remove.begin(), change.remove.end(),
+                     [&](const NodeKey& key) { return isDrawn(key); }) &&
+         std::all_of(change.add.begin(), change.add.end(),
+                     [&](const NodeKey& key) { return !isDrawn(key) && heights(key) != nullptr; });
+}
+
+bool NodeStore::apply(const DrawnChange& change, std::span<const BuiltPiece> pieces) {
+  if (!isPossible(change)) return false;
+  const ChangePlan wanted = plan(change);
+  const auto isFor = [](const BuiltPiece& built, const PiecePlan& piece) { return built.plan == piece; };
+  if (!std::equal(pieces.begin(), pieces.end(), wanted.build.begin(), wanted.build.end(), isFor))
+    return false;
+  for (const PieceName& name : wanted.drop) dropPiece(name);
+  for (const NodeKey& key : change.remove) drawn_.erase(key);
+  for (const NodeKey& key : change.add) *drawn_.find(key, LookUp::create) = heights(key);
+  drawnCount_ += change.add.size();
+  drawnCount_ -= change.remove.size();
   for (const BuiltPiece& built : pieces) {
-    assert(!pieces_.contains(built.name));
-    built.mesh->id = nextId_++;
-    pieces_.emplace(built.name, built.mesh->id);
-    meshes_.emplace_hint(meshes_.end(), built.mesh->id, built.mesh);
-    meshBytes_ += built.mesh->bytes();
+    const std::uint64_t id = nextId_++;
+    built.mesh->id = id;
+    const std::size_t bytes = bytesOf(built.plan.name, *built.mesh);
+    const bool isBorder = built.plan.name.piece == Piece::border;
+    pieces_.emplace(built.plan.name, Drawn{id, bytes, isBorder ? built.plan.nodes : std::vector<NodeKey>{}});
+    meshes_.emplace_hint(meshes_.end(), id, built.mesh);
+    meshBytes_ += bytes;
   }
   ++serial_;
   return true;
 }
 
+void NodeStore::dropPiece(const PieceName& name) {
+  const auto piece = pieces_.find(name);
+  meshBytes_ -= piece->second.bytes;
+  meshes_.erase(piece->second.id);
+  pieces_.erase(piece);
+}
+
+std::size_t NodeStore::bytesOf(const PieceName& name, const Mesh& mesh) noexcept {
+  // The index lists of borders are their own; those of all other pieces are shared, and counted once.
+  return mesh.bytes() +
+         (name.piece == Piece::border ? mesh.indices->capacity() * sizeof(TriangleIndices::value_type) : 0);
+}
+
+// ---- Heights
+
+namespace {
+
+/// Samples of a node's own level from its south-west corner.
+std::pair<double, double> samplesInside(const NodeKey& key, const Position& position, int intervals) {
+  const double scale = intervals / static_cast<double>(std::int64_t{1} << key.level);
+  return {(static_cast<double>(position.i - (key.i << key.level)) + position.u) * scale,
+          (static_cast<double>(position.j - (key.j << key.level)) + position.v) * scale};
+}
+
+}  // namespace
+
 std::optional<double> NodeStore::height(const Position& position, int level) const {
   const NodeKey key = nodeAt(position, level);
   const NodeHeights held = heights(key);
   if (!held) return std::nullopt;
-  const double patches = static_cast<double>(std::int64_t{1} << level);
-  const double scale = intervals_ / patches;
-  const double x = (static_cast<double>(position.i - (key.i << level)) + position.u) * scale;
-  const double y = (static_cast<double>(position.j - (key.j << level)) + position.v) * scale;
+  const auto [x, y] = samplesInside(key, position, intervals_);
   return triangleHeight(std::as_const(*held).view(), x, y);
+}
+
+std::optional<double> NodeStore::drawnHeight(const Position& position) const {
+  NodeKey key;
+  const NodeHeights* drawn = drawn_.find(nodeAt(position, 0), LookUp::nearestCoarser, &key);
+  if (!drawn) return std::nullopt;
+  const auto [x, y] = samplesInside(key, position, intervals_);
+  const bool isInside = x >= 1.0 && y >= 1.0 && x <= intervals_ - 1 && y <= intervals_ - 1;
+  if (!isInside) {
+    if (const std::optional<double> found = borderHeight(key, x, y)) return found;
+  }
+  return triangleHeight(std::as_const(**drawn).view(), x, y);
+}
+
+std::optional<double> NodeStore::borderHeight(const NodeKey& node, double x, double y) const {
+  const auto border = pieces_.find({node, Piece::border});
+  if (border == pieces_.end()) return std::nullopt;
+  const Mesh& mesh = *meshes_.at(border->second.id);
+  const auto scale = static_cast<double>(std::int64_t{1} << (node.level - mesh.level));
+  const double column = x * scale, row = y * scale;
+  // Rounding may put a point on an edge just outside both triangles: it is in the one it is least outside of.
+  constexpr double kOutside = -1e-9;
+  double best = kOutside;
+  std::optional<double> height;
+  for (std::size_t k = 0; k < mesh.indices->size(); k += 3) {
+    const auto corner = [&](std::size_t c) -> const SurfaceVertex& {
+      return mesh.vertices[(*mesh.indices)[k + c]];
+    };
+    const auto twiceArea = [&](const SurfaceVertex& a, const SurfaceVertex& b) {
+      return (a.column - column) * (b.row - row) - (b.column - column) * (a.row - row);
+    };
+    const SurfaceVertex &a = corner(0), &b = corner(1), &c = corner(2);
+    const double first = twiceArea(b, c), second = twiceArea(c, a), third = twiceArea(a, b);
+    const double whole = first + second + third, least = std::min({first, second, third}) / whole;
+    if (least < best || (height && least == best)) continue;
+    best = least;
+    height = (first * static_cast<double>(a.height) + second * static_cast<double>(b.height) +
+              third * static_cast<double>(c.height)) /
+             whole;
+  }
+  return height;
 }
 
 std::shared_ptr<const Scene> NodeStore::snapshot() const {
@@ -144,7 +293,7 @@ std::shared_ptr<const Scene> NodeStore::snapshot() const {
 }
 
 std::size_t NodeStore::bytes() const noexcept {
-  return heightBytes_ + meshBytes_ + tree_.bytes() + indices_.bytes() + drawn_.size() * kBytesPerDrawnNode +
+  return heightBytes_ + meshBytes_ + tree_.bytes() + drawn_.bytes() + indices_.bytes() +
          pieces_.size() * kBytesPerPiece;
 }
 
@@ -156,7 +305,7 @@ std::size_t NodeStore::heldBytes() const noexcept {
 std::size_t NodeStore::piecesBytes() const noexcept {
   return pieceBytes(Piece::interior, intervals_) + pieceBytes(Piece::eastSeam, intervals_) +
          pieceBytes(Piece::northSeam, intervals_) + pieceBytes(Piece::cornerPiece, intervals_) +
-         kBytesPerDrawnNode + 4 * kBytesPerPiece;
+         kTreeBytesPerNode + 4 * kBytesPerPiece;
 }
 
 }  // namespace teren

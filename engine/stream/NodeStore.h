@@ -2,9 +2,8 @@
 // seams and corner pieces - always one watertight surface (laws 2 and 5).
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <functional>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,39 +15,57 @@
 #include "teren/Position.h"
 #include "teren/Scene.h"
 
+#include "patch/BorderTask.h"
 #include "patch/MeshTask.h"
 #include "patch/NodeKey.h"
 #include "patch/PatchTree.h"
+#include "patch/PieceTask.h"
 
 namespace teren {
 
-/// A piece to be built and what it will be called.
+/// What a piece is called.
 struct PieceName {
-  NodeKey key;  ///< of its south-west node
+  NodeKey key;  ///< of its south-west node; of a border its own node
   Piece piece = Piece::interior;
   friend bool operator==(const PieceName&, const PieceName&) = default;
 };
 
 struct PieceNameHash {
   std::size_t operator()(const PieceName& name) const noexcept {
-    return NodeKeyHash{}(name.key) * 4 + static_cast<std::size_t>(name.piece);
+    return NodeKeyHash{}(name.key) * 8 + static_cast<std::size_t>(name.piece);
   }
 };
 
-/// The nodes a piece joins: 1, 2 or 4.
-std::vector<NodeKey> nodesOf(const PieceName& name);
-/// The nine pieces a node takes part in: its interior, four seams, four corner pieces.
-std::array<PieceName, 9> piecesOf(const NodeKey& node);
+/// A piece and the nodes it is made of: 1, 2 or 4 of one level in MeshTask's order; of a border its node,
+/// then all that touch it, by level and key.
+struct PiecePlan {
+  PieceName name;
+  std::vector<NodeKey> nodes;
+  friend bool operator==(const PiecePlan&, const PiecePlan&) = default;
+};
 
 /// A piece on its way to the drawn set, which gives its mesh an id.
 struct BuiltPiece {
-  PieceName name;
+  PiecePlan plan;
   std::shared_ptr<Mesh> mesh;
 };
 
 using NodeSet = std::unordered_set<NodeKey, NodeKeyHash>;
 
-/// Not thread-safe.
+/// Nodes that leave the drawn set and nodes that come instead, all at once. Afterwards as before no two
+/// overlap.
+struct DrawnChange {
+  std::vector<NodeKey> remove, add;
+};
+
+/// What a change asks for.
+struct ChangePlan {
+  std::vector<PiecePlan> build;  ///< pieces that there are not yet, or that join other nodes than before
+  std::vector<PieceName> drop;   ///< pieces that go
+  std::size_t bytes = 0;         ///< of the meshes to be built, at most
+};
+
+/// Not thread-safe. Any levels may be drawn side by side.
 class NodeStore {
  public:
   /// `spacing` [m] of level 0, `intervals` n.
@@ -56,26 +73,35 @@ class NodeStore {
 
   NodeHeights heights(const NodeKey& key) const;
   void insert(const NodeKey& key, NodeHeights heights);
-  /// Forgets a node: its heights, and its pieces if it is drawn.
+  /// Forgets the heights of a node that is not drawn.
   void erase(const NodeKey& key);
-  /// Takes a node out of the drawn set, with its pieces; its heights stay.
-  void undraw(const NodeKey& key);
   std::vector<NodeKey> nodes() const;
 
-  bool isDrawn(const NodeKey& key) const { return drawn_.contains(key); }
-  std::size_t drawnCount() const noexcept { return drawn_.size(); }
-  /// The pieces that must be there before `node` may be drawn: its own, and the seams and corner pieces all
-  /// of whose other nodes are drawn already, or will be before it: `before`.
-  std::vector<PieceName> piecesToDraw(const NodeKey& node, const NodeSet& before = {}) const;
+  bool isDrawn(const NodeKey& key) const { return drawn_.find(key, LookUp::none) != nullptr; }
+  /// The drawn node that contains this one; empty where there is none.
+  std::optional<NodeKey> drawnOver(const NodeKey& key) const;
+  /// The drawn nodes inside this one, itself included.
+  std::vector<NodeKey> drawnIn(const NodeKey& key) const;
+  /// The other drawn nodes whose squares touch that of `key` and do not lie in it, by level and key.
+  std::vector<NodeKey> drawnAround(const NodeKey& key) const;
+  std::size_t drawnCount() const noexcept { return drawnCount_; }
+
+  /// What must be built before a change: what it adds must be held and not drawn, what it removes drawn.
+  /// Costs about 2 us for each node it names and each that touches one.
+  ChangePlan plan(const DrawnChange& change) const;
   /// A task that builds a piece; its nodes must be held.
-  std::unique_ptr<MeshTask> makePiece(const PieceName& name);
-  /// Draws `node`, which is held and not drawn, with all its pieces, at once. False, and nothing happens,
-  /// where they are not exactly piecesToDraw(node): the drawn set has changed since they were chosen.
-  bool draw(const NodeKey& node, std::span<const BuiltPiece> pieces);
+  std::unique_ptr<PieceTask> makePiece(const PiecePlan& plan);
+  /// Makes the change, with all its pieces, at once. False, and nothing happens, where the pieces are not
+  /// exactly what plan(change) asks for, or its nodes are no longer as it needs them: the drawn set has
+  /// changed since.
+  bool apply(const DrawnChange& change, std::span<const BuiltPiece> pieces);
 
   /// [m] The triangles of the node of this level at a valid position; empty where it is not
   /// held.
   std::optional<double> height(const Position& position, int level) const;
+  /// [m] The triangles drawn at a valid position; empty where no node is drawn. Along an edge of the drawn
+  /// set, where seams are still to come: the node's own.
+  std::optional<double> drawnHeight(const Position& position) const;
 
   /// Grows with every change of the drawn set.
   std::uint64_t serial() const noexcept { return serial_; }
@@ -83,20 +109,36 @@ class NodeStore {
   /// Of everything held, the store's own bookkeeping included (estimated).
   std::size_t bytes() const noexcept;
   std::size_t meshBytes() const noexcept { return meshBytes_; }
-  /// What a node adds to bytes() at most: its heights alone, or drawn, with all its pieces.
+  /// What a node adds to bytes() at most: its heights alone, or drawn among nodes of its level, with all its
+  /// pieces.
   std::size_t heldBytes() const noexcept;
   std::size_t drawnBytes() const noexcept { return heldBytes() + piecesBytes(); }
   /// Of its pieces: an interior, two seams, a corner piece.
   std::size_t piecesBytes() const noexcept;
 
  private:
+  struct Drawn {
+    std::uint64_t id = 0;
+    std::size_t bytes = 0;
+    std::vector<NodeKey> nodes;  // of a border
+  };
+  struct Surroundings;
+
+  static std::size_t bytesOf(const PieceName& name, const Mesh& mesh) noexcept;
+  std::size_t plannedBytes(const PiecePlan& plan) const;
+  std::vector<PiecePlan> piecesOwnedBy(const NodeKey& node, const Surroundings& after) const;
+  bool isPossible(const DrawnChange& change) const;
+  void dropPiece(const PieceName& name);
+  std::optional<double> borderHeight(const NodeKey& node, double x, double y) const;
+
   double spacing_;
   int intervals_;
   PatchTree<NodeHeights> tree_;
   std::size_t heightBytes_ = 0, meshBytes_ = 0;
-  NodeSet drawn_;
-  std::unordered_map<PieceName, std::uint64_t, PieceNameHash> pieces_;  // to mesh ids
-  std::map<std::uint64_t, std::shared_ptr<const Mesh>> meshes_;         // by id
+  PatchTree<NodeHeights> drawn_;
+  std::size_t drawnCount_ = 0;
+  std::unordered_map<PieceName, Drawn, PieceNameHash> pieces_;
+  std::map<std::uint64_t, std::shared_ptr<const Mesh>> meshes_;  // by id
   GridIndices indices_;
   std::uint64_t nextId_ = 1, serial_ = 0;
 };

@@ -191,11 +191,11 @@ bool Streamer::tidyOne() {
 }
 
 void Streamer::drop(const NodeKey& key) {
-  if (ranks_.contains(key)) {
-    nodes_.undraw(key);  // ground under an object beyond the view
-  } else {
-    nodes_.erase(key);
+  if (nodes_.isDrawn(key)) {
+    [[maybe_unused]] const bool gone = nodes_.apply({{key}, {}}, {});
+    assert(gone);  // of one level, so that no other node has a border towards it
   }
+  if (!ranks_.contains(key)) nodes_.erase(key);  // else it is ground under an object beyond the view
 }
 
 void Streamer::collect() {
@@ -207,7 +207,7 @@ void Streamer::integrate(TaskRunner::Finished finished) {
     join_ = 0;
     joinBytes_ = 0;
     joining_.clear();
-    integrateJoin(static_cast<JoinTask&>(*finished.task).joined());
+    integrateJoin(static_cast<const JoinTask&>(*finished.task));
     return;
   }
   auto& task = static_cast<NodeTask&>(*finished.task);
@@ -224,14 +224,14 @@ void Streamer::integrate(TaskRunner::Finished finished) {
   }
 }
 
-void Streamer::integrateJoin(std::vector<JoinTask::Joined>& joined) {
-  for (JoinTask::Joined& one : joined) {
-    const auto rank = ranks_.find(one.node);
-    if (rank == ranks_.end() || isThere(one.node) || !nodes_.heights(one.node)) continue;
-    if (nodes_.draw(one.node, one.pieces)) {
-      --missing_;
-    } else {
-      toJoin_.insert(rank->second);  // its neighbours have changed: once more
+void Streamer::integrateJoin(const JoinTask& task) {
+  const std::vector<NodeKey>& nodes = task.change().add;
+  const auto isWanted = [&](const NodeKey& key) { return ranks_.contains(key) && isDrawable(key); };
+  if (std::all_of(nodes.begin(), nodes.end(), isWanted) && nodes_.apply(task.change(), task.pieces())) {
+    missing_ -= nodes.size();
+  } else {  // what they were to be joined with has changed: once more
+    for (const NodeKey& key : nodes) {
+      if (isWanted(key) && nodes_.heights(key)) toJoin_.insert(ranks_.at(key));
     }
   }
   peakMeshBytes_ = std::max(peakMeshBytes_, nodes_.meshBytes());
@@ -249,7 +249,7 @@ bool Streamer::startJoin() {
   }
   joining_.insert(batch.begin(), batch.end());
   joinBytes_ = bytes;
-  join_ = runner_.submit(std::make_unique<JoinTask>(nodes_, batch), kJoinUrgency);
+  join_ = runner_.submit(std::make_unique<JoinTask>(nodes_, DrawnChange{{}, std::move(batch)}), kJoinUrgency);
   return true;
 }
 

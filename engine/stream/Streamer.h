@@ -87,7 +87,7 @@ class Streamer {
   void drop(const NodeKey& key);
   void collect();
   void integrate(TaskRunner::Finished finished);
-  void integrateJoin(std::vector<JoinTask::Joined>& joined);
+  void integrateJoin(const JoinTask& task);
   bool startJoin();
   bool startBuild();
   /// Under the cap, with the renderer's share of what is drawn already.

@@ -13,6 +13,7 @@
 #include "height/Surface.h"
 #include "patch/MeshTask.h"
 #include "patch/NodeTask.h"
+#include "stream/JoinTask.h"
 #include "stream/NodeStore.h"
 #include "tests/engine/world/TestWorld.h"
 
@@ -64,14 +65,10 @@ class BlockSurface {
     while (!task.step(Slice::unlimited())) {
     }
     store_.insert(key, std::make_shared<const HeightMap>(task.takeHeights()));
-    std::vector<BuiltPiece> pieces;
-    for (const PieceName& name : store_.piecesToDraw(key)) {
-      const auto piece = store_.makePiece(name);
-      while (!piece->step(Slice::unlimited())) {
-      }
-      pieces.push_back({name, piece->takeResult()});
+    JoinTask join(store_, {{}, {key}});
+    while (!join.step(Slice::unlimited())) {
     }
-    EXPECT_TRUE(store_.draw(key, pieces));
+    EXPECT_TRUE(store_.apply(join.change(), join.pieces()));
   }
   const World& world_;
   NodeStore store_;

@@ -22,72 +22,116 @@ NodeHeights level(float height) {
 class NodeStoreTest : public testing::Test {
  protected:
   NodeStoreTest() {
-    for (const NodeKey& key : {west_, east_, north_}) store_.insert(key, level(1.0F));
+    for (const NodeKey& key : {west_, east_, north_, above_, far_}) store_.insert(key, level(1.0F));
   }
-  std::vector<JoinTask::Joined> build(const std::vector<NodeKey>& batch) {
-    JoinTask task(store_, batch);
-    while (!task.step(Slice::until(Slice::Clock::time_point::min()))) {
+  std::unique_ptr<JoinTask> build(const DrawnChange& change) {
+    auto task = std::make_unique<JoinTask>(store_, change);
+    while (!task->step(Slice::until(Slice::Clock::time_point::min()))) {
     }
-    return std::move(task.joined());
+    return task;
   }
-  bool draw(const JoinTask::Joined& joined) { return store_.draw(joined.node, joined.pieces); }
+  bool apply(const JoinTask& task) { return store_.apply(task.change(), task.pieces()); }
+  bool apply(const DrawnChange& change) { return apply(*build(change)); }
 
   NodeStore store_{1.0, kIntervals};
   const NodeKey west_{0, 0, 0}, east_{0, 1, 0}, north_{0, 0, 1};
+  const NodeKey above_{1, 0, 0}, far_{1, 1, 0};  // above the three, and east of that
 };
 
-TEST_F(NodeStoreTest, DrawsABatchInItsOrderWithTheSeamsBetweenItsNodes) {
-  const auto joined = build({west_, east_, north_});
-  ASSERT_EQ(joined.size(), 3U);
-  EXPECT_EQ(joined[0].pieces.size(), 1U);
-  EXPECT_EQ(joined[1].pieces.size(), 2U);
-  EXPECT_EQ(joined[2].pieces.size(), 2U);
-  for (const auto& one : joined) EXPECT_TRUE(draw(one));
+TEST_F(NodeStoreTest, DrawsNodesWithTheSeamsBetweenThemAtOnce) {
+  const auto joined = build({{}, {west_, east_, north_}});
+  EXPECT_EQ(joined->pieces().size(), 5U);
+  EXPECT_TRUE(apply(*joined));
   EXPECT_EQ(store_.drawnCount(), 3U);
   EXPECT_EQ(store_.snapshot()->meshes().size(), 5U);
 }
 
 TEST_F(NodeStoreTest, RefusesPiecesBuiltForAnotherDrawnSet) {
-  ASSERT_TRUE(draw(build({west_})[0]));
-  const auto joined = build({east_});
-  store_.undraw(west_);  // the seam that was built has lost its western node
-  EXPECT_FALSE(draw(joined[0]));
+  ASSERT_TRUE(apply({{}, {west_}}));
+  const auto joined = build({{}, {east_}});
+  ASSERT_TRUE(apply({{west_}, {}}));  // the seam that was built has lost its western node
+  EXPECT_FALSE(apply(*joined));
   EXPECT_FALSE(store_.isDrawn(east_));
-  const auto again = build({east_});
-  ASSERT_TRUE(draw(build({north_})[0]));  // no neighbour of it, so nothing has changed
-  EXPECT_TRUE(draw(again[0]));
-  const auto late = build({west_});
-  store_.undraw(east_);
-  EXPECT_FALSE(draw(late[0]));
-  ASSERT_TRUE(draw(build({east_})[0]));
-  EXPECT_TRUE(draw(build({west_})[0]));
+  const auto again = build({{}, {east_}});
+  ASSERT_TRUE(apply({{}, {north_}}));
+  EXPECT_TRUE(apply(*again));  // they meet in a corner only, where two more nodes are missing
+  const auto late = build({{}, {west_}});
+  ASSERT_TRUE(apply({{east_}, {}}));
+  EXPECT_FALSE(apply(*late));
+  ASSERT_TRUE(apply({{}, {east_}}));
+  EXPECT_TRUE(apply({{}, {west_}}));
   EXPECT_EQ(store_.snapshot()->meshes().size(), 5U);
 }
 
+TEST_F(NodeStoreTest, RefusesNodesThatHaveComeGoneOrLostTheirHeights) {
+  const auto first = build({{}, {west_}}), second = build({{}, {west_}});
+  ASSERT_TRUE(apply(*first));
+  EXPECT_FALSE(apply(*second));
+  const auto parting = build({{west_}, {}}), partingAgain = build({{west_}, {}});
+  ASSERT_TRUE(apply(*parting));
+  EXPECT_FALSE(apply(*partingAgain));
+  const auto late = build({{}, {east_}});
+  store_.erase(east_);
+  EXPECT_FALSE(apply(*late));
+}
+
+TEST_F(NodeStoreTest, ExchangesANodeForFinerOnesTogetherWithItsNeighboursBorders) {
+  const NodeKey last{0, 1, 1};
+  store_.insert(last, level(1.0F));
+  ASSERT_TRUE(apply({{}, {above_, far_}}));
+  const std::size_t before = store_.meshBytes();
+  EXPECT_EQ(store_.snapshot()->meshes().size(), 3U);
+  const DrawnChange refine{{above_}, {west_, east_, north_, last}};
+  const auto borders = [&](const NodeKey& node) {
+    const ChangePlan plan = store_.plan(refine);
+    return std::count_if(plan.build.begin(), plan.build.end(), [&](const PiecePlan& piece) {
+      return piece.name == PieceName{node, Piece::border};
+    });
+  };
+  EXPECT_EQ(borders(far_), 1);
+  EXPECT_EQ(borders(east_), 1);
+  EXPECT_EQ(borders(west_), 0);
+  ASSERT_TRUE(apply(refine));
+  EXPECT_EQ(store_.drawnOver(west_), west_);
+  EXPECT_EQ(store_.drawnIn(above_).size(), 4U);
+  EXPECT_EQ(store_.drawnAround(above_), std::vector{far_});
+  ASSERT_TRUE(apply({{west_, east_, north_, last}, {above_}}));
+  EXPECT_EQ(store_.meshBytes(), before);
+  EXPECT_EQ(store_.snapshot()->meshes().size(), 3U);
+}
+
 TEST_F(NodeStoreTest, GivesMeshesIncreasingIdsInTheOrderTheyAreDrawn) {
-  const auto first = build({west_}), second = build({north_});
-  ASSERT_TRUE(draw(build({east_})[0]));
-  EXPECT_FALSE(draw(first[0]));  // built before the east was drawn
-  ASSERT_TRUE(draw(second[0]));
+  const auto first = build({{}, {west_}}), second = build({{}, {north_}});
+  ASSERT_TRUE(apply({{}, {east_}}));
+  EXPECT_FALSE(apply(*first));  // built before the east was drawn
+  ASSERT_TRUE(apply(*second));
   const auto scene = store_.snapshot();
   const auto meshes = scene->meshes();
   EXPECT_TRUE(std::is_sorted(meshes.begin(), meshes.end(),
                              [](const auto& a, const auto& b) { return a->id < b->id; }));
 }
 
-TEST_F(NodeStoreTest, CountsNoMoreThanItSaysANodeCosts) {
+TEST_F(NodeStoreTest, CountsNoMoreThanItSaysANodeAndAChangeCost) {
   const std::size_t held = store_.bytes();
-  EXPECT_LE(held, 3 * store_.heldBytes());
+  EXPECT_LE(held, 5 * store_.heldBytes());
   std::size_t before = held;
   for (const NodeKey& key : {west_, east_, north_}) {
-    ASSERT_TRUE(draw(build({key})[0]));
+    ASSERT_TRUE(apply({{}, {key}}));
     const std::size_t indices = 200 * sizeof(std::uint32_t) * kIntervals;
     EXPECT_LE(store_.bytes() - before, store_.piecesBytes() + indices);
     before = store_.bytes();
   }
-  for (const NodeKey& key : {west_, east_, north_}) store_.erase(key);
+  const auto beside = build({{}, {far_}});
+  const std::size_t meshes = store_.meshBytes();
+  ASSERT_TRUE(apply(*beside));
+  EXPECT_LE(store_.meshBytes() - meshes, beside->bytes());
+  ASSERT_TRUE(apply({{far_}, {}}));
+  for (const NodeKey& key : {west_, east_, north_}) {
+    ASSERT_TRUE(apply({{key}, {}}));
+    store_.erase(key);
+  }
   EXPECT_EQ(store_.meshBytes(), 0U);
-  EXPECT_TRUE(store_.nodes().empty());
+  EXPECT_EQ(store_.nodes().size(), 2U);
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+// What builds a piece of the surface: a task that ends with a mesh.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "teren/Scene.h"
+#include "teren/Slice.h"
+
+namespace teren {
+
+class PieceTask : public SlicedTask {
+ public:
+  /// Complete, but for its id, once step has returned true.
+  std::shared_ptr<Mesh> takeResult() noexcept { return std::move(mesh_); }
+
+ protected:
+  PieceTask();
+  /// Adds a vertex and widens the mesh's range of heights.
+  void addVertex(const SurfaceVertex& vertex);
+
+  std::shared_ptr<Mesh> mesh_;
+};
+
+}  // namespace teren
