@@ -16,6 +16,7 @@
 #include "world/FieldTask.h"
 #include "world/Layer.h"
 #include "world/LayerSampler.h"
+#include "world/NodeErrors.h"
 
 namespace teren {
 
@@ -277,6 +278,7 @@ Result<std::shared_ptr<const World>> World::create(const WorldDescription& descr
     world->layers_.push_back(std::move(*made));
   }
   world->queryMaps_ = std::make_unique<BaseMapStore>(kQueryBytes);
+  world->nodeErrors_ = std::make_unique<NodeErrors>(world->layers_, world->spacing(0), world->topLevel_);
   return std::shared_ptr<const World>(std::move(world));
 }
 
@@ -286,6 +288,10 @@ double World::spacing(int level) const noexcept {
 
 std::span<const Layer> World::layers() const noexcept {
   return layers_;
+}
+
+NodeErrors& World::nodeErrors() const noexcept {
+  return *nodeErrors_;
 }
 
 std::vector<std::string> World::takeMessages() const {

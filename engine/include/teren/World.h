@@ -70,6 +70,7 @@ struct SurfacePoint {
 class Layer;
 class BaseMapStore;
 class MessageBox;
+class NodeErrors;
 
 /// A checked world, immutable; all member functions are const and may be called from any thread.
 class World {
@@ -116,6 +117,8 @@ class World {
   std::optional<std::string> failure() const;
 
   std::span<const Layer> layers() const noexcept;  ///< engine/world/Layer.h, for the engine itself
+  /// engine/world/NodeErrors.h, for the engine itself; what is known grows, what is known stays the same.
+  NodeErrors& nodeErrors() const noexcept;
 
  private:
   World();
@@ -126,6 +129,7 @@ class World {
   std::vector<Layer> layers_;
   std::shared_ptr<MessageBox> messages_;
   std::unique_ptr<BaseMapStore> queryMaps_;
+  std::unique_ptr<NodeErrors> nodeErrors_;
 };
 
 }  // namespace teren
