@@ -8,6 +8,8 @@
 
 #include "teren/HeightSampling.h"
 
+#include "patch/NodeGap.h"
+
 namespace teren {
 
 namespace {
@@ -15,6 +17,7 @@ namespace {
 // The containers' own nodes and the blocks that count references, as allocated (estimated).
 constexpr std::size_t kBytesPerPiece = 256;     // in two maps and a scene
 constexpr std::size_t kTreeBytesPerNode = 160;  // leaf, control block, its share of the branches
+constexpr std::size_t kBendBytes = 56;          // in its map
 
 constexpr std::array<Piece, 5> kPieces{Piece::interior, Piece::eastSeam, Piece::northSeam, Piece::cornerPiece,
                                        Piece::border};
@@ -39,6 +42,7 @@ void NodeStore::insert(const NodeKey& key, NodeHeights heights) {
   NodeHeights& place = *tree_.find(key, LookUp::create);
   assert(!place);
   heightBytes_ += heights->bytes() + sizeof(HeightMap);
+  bends_.emplace(key, static_cast<float>(largestBend(heights->view())));
   place = std::move(heights);
 }
 
@@ -48,6 +52,7 @@ void NodeStore::erase(const NodeKey& key) {
   if (!held) return;
   heightBytes_ -= held->bytes() + sizeof(HeightMap);
   tree_.erase(key);
+  bends_.erase(key);
 }
 
 std::vector<NodeKey> NodeStore::nodes() const {
@@ -198,6 +203,7 @@ bool NodeStore::apply(const DrawnChange& change, std::span<const BuiltPiece> pie
   for (const BuiltPiece& built : pieces) {
     const std::uint64_t id = nextId_++;
     built.mesh->id = id;
+    noteError(built.plan, *built.mesh);
     const std::size_t bytes = bytesOf(built.plan.name, *built.mesh);
     const bool isBorder = built.plan.name.piece == Piece::border;
     pieces_.emplace(built.plan.name, Drawn{id, bytes, isBorder ? built.plan.nodes : std::vector<NodeKey>{}});
@@ -206,6 +212,13 @@ bool NodeStore::apply(const DrawnChange& change, std::span<const BuiltPiece> pie
   }
   ++serial_;
   return true;
+}
+
+/// A border lies within its own node, the first; all others join nodes of one level.
+void NodeStore::noteError(const PiecePlan& plan, Mesh& mesh) const {
+  mesh.nodeLevel = plan.name.key.level;
+  const std::size_t count = plan.name.piece == Piece::border ? 1 : plan.nodes.size();
+  for (std::size_t k = 0; k < count; ++k) mesh.bend = std::max(mesh.bend, bends_.at(plan.nodes[k]));
 }
 
 void NodeStore::dropPiece(const PieceName& name) {
@@ -294,12 +307,12 @@ std::shared_ptr<const Scene> NodeStore::snapshot() const {
 
 std::size_t NodeStore::bytes() const noexcept {
   return heightBytes_ + meshBytes_ + tree_.bytes() + drawn_.bytes() + indices_.bytes() +
-         pieces_.size() * kBytesPerPiece;
+         bends_.size() * kBendBytes + pieces_.size() * kBytesPerPiece;
 }
 
 std::size_t NodeStore::heldBytes() const noexcept {
   const auto side = static_cast<std::size_t>(intervals_ + 1);
-  return side * side * sizeof(float) + sizeof(HeightMap) + kTreeBytesPerNode;
+  return side * side * sizeof(float) + sizeof(HeightMap) + kTreeBytesPerNode + kBendBytes;
 }
 
 std::size_t NodeStore::piecesBytes() const noexcept {

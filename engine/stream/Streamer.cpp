@@ -4,8 +4,10 @@
 #include <cassert>
 #include <utility>
 
+#include "patch/ErrorCalibration.h"
 #include "patch/NodeTask.h"
 #include "stream/View.h"
+#include "world/NodeErrors.h"
 
 namespace teren {
 
@@ -20,10 +22,28 @@ constexpr std::size_t kJoinBatch = 16;  // with workers; without, nodes are join
 // Ground under objects goes before everything else, joining nodes before making more of them.
 constexpr std::int64_t kGroundUrgency = -(std::int64_t{1} << 40);
 constexpr std::int64_t kJoinUrgency = -1;
+constexpr std::int64_t kCalibrationUrgency = std::int64_t{1} << 40;  // after all that is wanted
 
 std::size_t buildBytes(const World& world, int viewLevel) {
   return std::max(NodeTask::mostBytes(world, 0), NodeTask::mostBytes(world, viewLevel));
 }
+
+bool errorsAreKnown(const World& world) {
+  return world.nodeErrors().nextToCalibrate() > world.topLevel();
+}
+
+/// A few steps of a calibration. It is done when nothing else is wanted, and no worker is kept by it when
+/// something is again.
+class CalibrationSteps final : public SlicedTask {
+ public:
+  explicit CalibrationSteps(std::shared_ptr<ErrorCalibration> calibration)
+      : calibration_(std::move(calibration)) {}
+  bool step(const Slice& slice) override { return calibration_->step(slice) || --left_ == 0; }
+
+ private:
+  std::shared_ptr<ErrorCalibration> calibration_;
+  int left_ = 4;
+};
 
 std::size_t joinBatch(int workers) {
   return workers > 0 ? kJoinBatch : 1;
@@ -35,6 +55,7 @@ Streamer::Streamer(const World& world, const EngineOptions& options)
     : world_(world),
       options_(options),
       buildBytes_(buildBytes(world, options.view.level)),
+      calibrationBytes_(ErrorCalibration::mostBytes(world)),
       maps_(kMostMapBytes),
       nodes_(world.spacing(0), world.intervals()),
       runner_(options.workers) {
@@ -183,7 +204,7 @@ bool Streamer::tidyOne() {
   } else if (!arrived_.empty()) {
     integrate(std::move(arrived_.front()));
     arrived_.pop_front();
-  } else if (!maps_.dropOldest() && !startJoin() && !startBuild()) {
+  } else if (!maps_.dropOldest() && !startJoin() && !startBuild() && !startCalibration()) {
     return false;
   }
   peakBytes_ = std::max(peakBytes_, bytes());
@@ -208,6 +229,11 @@ void Streamer::integrate(TaskRunner::Finished finished) {
     joinBytes_ = 0;
     joining_.clear();
     integrateJoin(static_cast<const JoinTask&>(*finished.task));
+    return;
+  }
+  if (finished.ticket == calibration_) {
+    calibration_ = 0;
+    if (errorsAreKnown(world_)) calibrator_.reset();
     return;
   }
   auto& task = static_cast<NodeTask&>(*finished.task);
@@ -258,7 +284,9 @@ bool Streamer::startBuild() {
          (nodes_.heights(wanted_[nextWanted_]) || builds_.contains(wanted_[nextWanted_]))) {
     ++nextWanted_;
   }
-  if (nextWanted_ == wanted_.size() || !hasRoomFor(buildBytes_)) return false;
+  if (nextWanted_ == wanted_.size()) return false;
+  if (calibration_ == 0 && !hasRoomFor(buildBytes_)) calibrator_.reset();  // later
+  if (!hasRoomFor(buildBytes_)) return false;
   const bool ground = isGround(nextWanted_);
   if (ground ? groundBuilds_ == mostGroundBuilds_ : builds_.size() - groundBuilds_ == mostViewBuilds_) {
     return false;
@@ -273,13 +301,26 @@ bool Streamer::startBuild() {
   return true;
 }
 
+bool Streamer::startCalibration() {
+  if (calibration_ != 0 || missing_ > 0 || errorsAreKnown(world_)) return false;
+  if (!calibrator_) {
+    if (!hasRoomFor(calibrationBytes_)) return false;
+    calibrator_ = std::make_shared<ErrorCalibration>(world_);
+  }
+  calibration_ = runner_.submit(std::make_unique<CalibrationSteps>(calibrator_), kCalibrationUrgency);
+  return true;
+}
+
 bool Streamer::isSettled() const {
   if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty()) return false;
-  return missing_ == 0 || !hasRoomFor(std::max(buildBytes_, 2 * nodes_.piecesBytes()));
+  if (missing_ == 0) return true;
+  // A calibration under way gives its room back.
+  return calibration_ == 0 && !hasRoomFor(std::max(buildBytes_, 2 * nodes_.piecesBytes()));
 }
 
 std::size_t Streamer::bytes() const {
-  return maps_.bytes() + nodes_.bytes() + rendererBytes_ + builds_.size() * buildBytes_ + joinBytes_;
+  return maps_.bytes() + nodes_.bytes() + rendererBytes_ + builds_.size() * buildBytes_ + joinBytes_ +
+         (calibrator_ ? calibrationBytes_ : 0);
 }
 
 bool Streamer::hasRoomFor(std::size_t more) const {

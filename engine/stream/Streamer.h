@@ -24,6 +24,8 @@
 
 namespace teren {
 
+class ErrorCalibration;
+
 /// One thread calls it; with workers, nodes and pieces are made on theirs, and the caller only hands out
 /// tasks, takes what is finished and frees. All of the caller's work is done in slices (law 4).
 ///
@@ -90,12 +92,14 @@ class Streamer {
   void integrateJoin(const JoinTask& task);
   bool startJoin();
   bool startBuild();
+  bool startCalibration();
   /// Under the cap, with the renderer's share of what is drawn already.
   bool hasRoomFor(std::size_t more) const;
 
   const World& world_;
   EngineOptions options_;
-  std::size_t buildBytes_;  // of one node task
+  std::size_t buildBytes_;        // of one node task
+  std::size_t calibrationBytes_;  // of one calibration
   std::size_t mostViewBuilds_, mostGroundBuilds_;
   BaseMapStore maps_;
   NodeStore nodes_;
@@ -121,6 +125,8 @@ class Streamer {
   TaskRunner::Ticket join_ = 0;  // in flight or arrived; 0: none
   std::size_t joinBytes_ = 0;
   NodeSet joining_;
+  std::shared_ptr<ErrorCalibration> calibrator_;  // of the world's node errors; null where none is under way
+  TaskRunner::Ticket calibration_ = 0;            // its next steps, likewise
   std::deque<TaskRunner::Finished> arrived_;
   TaskRunner runner_;  // last: ends before what its tasks use
 };

@@ -33,6 +33,8 @@ struct Mesh {
   std::int64_t originColumn = 0, originRow = 0;
   int columns = 0, rows = 0;                 ///< vertices lie at 0 ... columns and 0 ... rows
   float minHeight = 0.0F, maxHeight = 0.0F;  ///< [m] measured over the vertices
+  int nodeLevel = 0;  ///< of the nodes it joins; between nodes of several levels, of the one it fills
+  float bend = 0.0F;  ///< [m] largest second difference of their samples: see drawnError in PixelError.h
   std::vector<SurfaceVertex> vertices;
   std::shared_ptr<const TriangleIndices> indices;  ///< shared by all meshes of the same shape
 

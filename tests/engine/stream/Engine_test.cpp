@@ -11,6 +11,7 @@
 
 #include "height/Surface.h"
 #include "tests/engine/stream/FaultWorld.h"
+#include "world/NodeErrors.h"
 
 namespace teren {
 namespace {
@@ -89,6 +90,24 @@ TEST_P(EngineWithWorkers, SettlesToAViewWithoutHoles) {
   EXPECT_EQ(static_cast<std::int64_t>(squares.size()), (5 * n - 2) * (5 * n - 2));
   EXPECT_EQ(scene.triangles(), squares.size() * 2);
   EXPECT_EQ(flight.engine->figures().triangles, squares.size() * 2);
+}
+
+TEST_P(EngineWithWorkers, MeasuresTheWorldsNodeErrorsWhenAllIsThere) {
+  Flight flight(GetParam());
+  flight.engine->settle();
+  const NodeErrors& errors = flight.world->nodeErrors();
+  const auto scene = flight.engine->scene();
+  for (int update = 0; update < 100'000 && errors.nextToCalibrate() <= errors.topLevel(); ++update) {
+    flight.engine->update(0.0, std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(errors.nextToCalibrate(), errors.topLevel() + 1);
+  EXPECT_EQ(flight.engine->scene(), scene);
+  for (const auto& mesh : scene->meshes()) {
+    EXPECT_EQ(mesh->nodeLevel, flight.engine->options().view.level);
+    EXPECT_GT(mesh->bend, 0.0F);
+  }
+  flight.engine->update(0.0, std::chrono::milliseconds(1));
+  EXPECT_EQ(flight.engine->figures().unfinishedTasks, 0U);
 }
 
 TEST_P(EngineWithWorkers, NeverPublishesACrackBetweenDrawnNodes) {
