@@ -69,6 +69,7 @@ std::vector<DisplayLine> costLines(const CostFigures& figures) {
       {"nodes", groupedNumber(static_cast<long double>(figures.nodes), 0) +
                     (figures.pending > 0 ? text("  (+ %zu to come)", figures.pending) : "")},
       {"triangles", groupedNumber(static_cast<long double>(figures.triangles), 0)},
+      {"pixel error", text("%.1f px  (p99 %.1f)", figures.pixelError.max, figures.pixelError.p99)},
       {"memory", megabytes(figures.bytes)},
   };
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "teren/Object.h"
+#include "teren/PixelError.h"
 
 namespace teren {
 
@@ -26,6 +27,7 @@ struct CostFigures {
   double engineMilliseconds = 0.0;
   std::size_t nodes = 0, triangles = 0, bytes = 0;
   std::size_t pending = 0;  ///< nodes still to be made
+  PixelError pixelError = {};
 };
 
 /// One line per figure. Metres are exact to the digit shown as far out as the world goes; the patch and the

@@ -125,15 +125,25 @@ void FlyWindow::tick() {
   }
 }
 
+Viewpoint FlyWindow::viewpoint() const {
+  return rig_.viewpoint(poseOf(flight_.activeObject()), flight_.engine().ground(),
+                        static_cast<double>(daylight_.waterLevel));
+}
+
 void FlyWindow::updateScene(double dt) {
-  const Viewpoint view = rig_.viewpoint(poseOf(flight_.activeObject()), flight_.engine().ground(),
-                                        static_cast<double>(daylight_.waterLevel));
-  scene_.show(flight_, view, rig_.person(), dt);
+  scene_.show(flight_, viewpoint(), rig_.person(), dt);
   flight_.engine().setRendererBytes(scene_.bufferBytes());
 }
 
 std::size_t FlyWindow::bytes() const {
   return flight_.engine().figures().bytes;
+}
+
+PixelError FlyWindow::pixelError() const {
+  const Viewpoint view = viewpoint();
+  const int rows = area_->pixels().height();
+  const Eye eye{view.pose.position, view.pose.height, lensPixels(rows, view.fieldOfView)};
+  return teren::pixelError(flight_.engine().world(), *flight_.engine().scene(), eye);
 }
 
 void FlyWindow::showFigures() {
@@ -145,6 +155,7 @@ void FlyWindow::showFigures() {
   figures.triangles = engine.triangles;
   figures.bytes = bytes();
   figures.pending = engine.pending;
+  figures.pixelError = pixelError();
   std::vector<DisplayLine> lines = flight_.activeObject().headUpDisplay();
   for (DisplayLine& line : costLines(figures)) lines.push_back(std::move(line));
   display_.setLines(std::move(lines));

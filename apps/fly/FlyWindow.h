@@ -11,6 +11,8 @@
 #include <QTimer>
 #include <QWidget>
 
+#include "teren/PixelError.h"
+
 #include "apps/fly/CameraRig.h"
 #include "apps/fly/Daylight.h"
 #include "apps/fly/Flight.h"
@@ -49,6 +51,8 @@ class FlyWindow : public QWidget {
   /// [ms] between the moments at which successive frames were presented.
   const FrameStatistics& frameTimes() const noexcept { return frameTimes_; }
   std::size_t bytes() const;  ///< the engine's, the graphics buffers included
+  /// Of the land as it is seen now.
+  PixelError pixelError() const;
   /// The last sentence it has shown the person.
   const std::string& lastSentence() const noexcept { return lastSentence_; }
 
@@ -59,6 +63,7 @@ class FlyWindow : public QWidget {
  private:
   void tick();
   void updateScene(double dt);
+  Viewpoint viewpoint() const;
   void showFigures();
   void showHelp();
   bool isLastFrame(Clock::time_point now) const;

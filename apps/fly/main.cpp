@@ -39,9 +39,9 @@ Result<void> saveResults(const FlyOptions& options, const FlyWindow& window, con
     if (!saved) return saved;
   }
   if (options.window.stats.empty()) return {};
-  return saveText(
-      frameReport(window.frameTimes(), flight.engineTimes(), flight.engine().figures(), window.bytes()),
-      options.window.stats);
+  return saveText(frameReport(window.frameTimes(), flight.engineTimes(), flight.engine().figures(),
+                              window.bytes(), window.pixelError()),
+                  options.window.stats);
 }
 
 Result<void> fly(NewLand land, const FlyWindow::Remake& remake) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "teren/Engine.h"
+#include "teren/PixelError.h"
 
 #include "apps/window/FrameStatistics.h"
 
@@ -19,9 +20,10 @@ using ReportedCounts = std::initializer_list<std::pair<const char*, std::size_t>
 std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameStatistics& engineMicroseconds,
                         ReportedCounts counts);
 
-/// The same with {"triangles", "nodes", "bytes"}, as they are at the end. `bytes` are the engine's and the
-/// graphics buffers'.
+/// The same with "triangles", "nodes", "bytes" and "pixel_error": {"p99", "max"}, as they are at the end.
+/// `bytes` are the engine's and the graphics buffers'; a program that draws the level-0 surface itself has no
+/// pixel error.
 std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameStatistics& engineMicroseconds,
-                        const EngineFigures& figures, std::size_t bytes);
+                        const EngineFigures& figures, std::size_t bytes, const PixelError& pixelError = {});
 
 }  // namespace teren

@@ -61,6 +61,12 @@ TEST(FlightFigures, SayWhenTheGroundIsUnknown) {
   EXPECT_EQ(figure(figures, "above ground"), "123.5 m");
 }
 
+TEST(CostFigures, TellHowWrongThePictureMayBe) {
+  CostFigures figures;
+  figures.pixelError = {.p99 = 2.34, .max = 17.06};
+  EXPECT_EQ(says(costLines(figures), "pixel error"), "17.1 px  (p99 2.3)");
+}
+
 TEST(CostFigures, TellWhatIsStillToCome) {
   CostFigures figures;
   figures.nodes = 1690;

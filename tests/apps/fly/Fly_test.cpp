@@ -130,7 +130,8 @@ TEST_F(Fly, LeavesExactlyTheFiguresThatScriptsReadOn) {
   ASSERT_TRUE(stats.is_object());
   std::set<std::string> keys;
   for (const auto& item : stats.items()) keys.insert(item.key());
-  EXPECT_EQ(keys, (std::set<std::string>{"frames", "frame_ms", "engine_us", "triangles", "nodes", "bytes"}));
+  EXPECT_EQ(keys, (std::set<std::string>{"frames", "frame_ms", "engine_us", "triangles", "nodes", "bytes",
+                                         "pixel_error"}));
   EXPECT_GE(stats["frames"].get<int>(), 3);
   for (const char* key : {"frame_ms", "engine_us"}) {
     ASSERT_EQ(stats[key].size(), 3U) << key;
@@ -142,6 +143,9 @@ TEST_F(Fly, LeavesExactlyTheFiguresThatScriptsReadOn) {
   EXPECT_GE(stats["nodes"].get<int>(), 9 * 8);  // of 9 * 9; a column of them may be on its way
   EXPECT_GT(stats["triangles"].get<int>(), 2 * stats["nodes"].get<int>());
   EXPECT_GT(stats["bytes"].get<double>(), 12.0 * stats["triangles"].get<double>() / 2.0);
+  ASSERT_EQ(stats["pixel_error"].size(), 2U);
+  EXPECT_GT(stats["pixel_error"]["p99"].get<double>(), 0.0);
+  EXPECT_GE(stats["pixel_error"]["max"].get<double>(), stats["pixel_error"]["p99"].get<double>());
 }
 
 TEST_F(Fly, HasNothingToSayAboutAWorldOfAnotherPitch) {

@@ -112,7 +112,7 @@ TEST_F(Static, LeavesTheFiguresThatEveryProgramWithAWindowLeaves) {
   EXPECT_EQ(run("--seconds 0.2 --size 300x200 --stats " + file.string()).exitCode, 0);
   const nlohmann::json stats = nlohmann::json::parse(contents(file), nullptr, false);
   ASSERT_TRUE(stats.is_object());
-  EXPECT_EQ(stats.size(), 6U);
+  EXPECT_EQ(stats.size(), 7U);
   EXPECT_EQ(stats["nodes"], 9);
   // Of 3 x 3 patches of 32 x 32 squares the outermost ring is not drawn.
   EXPECT_EQ(stats["triangles"], 2 * (3 * 32 - 2) * (3 * 32 - 2));
@@ -120,6 +120,7 @@ TEST_F(Static, LeavesTheFiguresThatEveryProgramWithAWindowLeaves) {
   EXPECT_GT(stats["frame_ms"]["p50"].get<double>(), 0.0);
   EXPECT_GT(stats["engine_us"]["max"].get<double>(), 0.0);
   EXPECT_GT(stats["bytes"].get<double>(), 9 * 33 * 33 * 4.0);
+  EXPECT_EQ(stats["pixel_error"]["max"], 0.0);  // all is level 0
 }
 
 TEST_F(Static, RefusesAWrongCommandLineInOneSentence) {
