@@ -25,7 +25,7 @@ namespace teren {
 ///
 /// Whatever the plugins promise, this is what they do. Cut layers, filters on coarse maps, coarse fields and
 /// blending need no formulas: they are in the nodes compared. A pure function of the world, in whatever
-/// slices it is made. Costs kSamples (4^kDepth + 1) nodes a level, most of a second of one core in all for
+/// slices it is made. Costs kSamples (4^kDepth + 1) nodes a level, about 2 s of one core in all for
 /// the world shipped; a step is one node's.
 class ErrorCalibration final : public SlicedTask {
  public:

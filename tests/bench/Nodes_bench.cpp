@@ -1,5 +1,5 @@
 // What a node costs of a layer that is a continuous field, beside layers whose maps are blended, and beside
-// the field's samples without an engine around them.
+// the field's samples without an engine around them; what its error costs, and calibrating a world's errors.
 #include <cstdint>
 
 #include <benchmark/benchmark.h>
@@ -7,9 +7,12 @@
 #include "teren/ContinuousGenerator.h"
 #include "teren/World.h"
 
+#include "patch/ErrorCalibration.h"
+#include "patch/NodeGap.h"
 #include "patch/NodeTask.h"
 #include "tests/bench/MedianReporter.h"
 #include "world/Layer.h"
+#include "world/NodeErrors.h"
 
 namespace teren {
 namespace {
@@ -54,6 +57,40 @@ void makeNodes(benchmark::State& state, const Subject& subject) {
   state.SetItemsProcessed(state.iterations() * kBlock * kBlock);
 }
 
+/// The share of a node that its error costs: looking through its samples, and asking for the estimate.
+void nodeErrors(benchmark::State& state) {
+  const auto world = World::create(WorldDescription::standard(), *PluginRegistry::standard());
+  if (!world) return state.SkipWithError(world.error().message.c_str());
+  BaseMapStore maps(std::size_t{64} << 20);
+  NodeTask task(**world, {1, 0, 0}, maps);
+  benchmark::DoNotOptimize(task.step(Slice::unlimited()));
+  const HeightMap heights = task.takeHeights();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize((*world)->nodeErrors().estimate(1, largestBend(heights.view())));
+  }
+}
+
+/// The world shipped, with maps that are kept: what a node costs beside its error.
+void standardNodes(benchmark::State& state) {
+  const auto world = World::create(WorldDescription::standard(), *PluginRegistry::standard());
+  if (!world) return state.SkipWithError(world.error().message.c_str());
+  BaseMapStore maps(std::size_t{64} << 20);
+  for (auto _ : state) {
+    NodeTask task(**world, {1, 0, 0}, maps);
+    benchmark::DoNotOptimize(task.step(Slice::unlimited()));
+  }
+}
+
+/// All levels of the world shipped.
+void calibrateWorld(benchmark::State& state) {
+  for (auto _ : state) {
+    const auto world = World::create(WorldDescription::standard(), *PluginRegistry::standard());
+    if (!world) return state.SkipWithError(world.error().message.c_str());
+    ErrorCalibration calibration(**world);
+    benchmark::DoNotOptimize(calibration.step(Slice::unlimited()));
+  }
+}
+
 int runAll(int argc, char** argv) {
   if (!initializeRepeated(argc, argv)) return 2;
   const auto add = [](const char* name, const Subject& subject) {
@@ -64,11 +101,16 @@ int runAll(int argc, char** argv) {
   add("spectral/maps", {.generator = "spectral"});
   add("noise/field", {.generator = "noise"});
   add("noise/alone", {.generator = "noise", .alone = true});
+  benchmark::RegisterBenchmark("standard/maps-kept", standardNodes)->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("standard/error", nodeErrors)->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("standard/calibration", calibrateWorld)->Unit(benchmark::kMillisecond);
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   for (const char* blended : {"fault/maps-kept", "fault/maps", "spectral/maps"})
     reporter.printRatio(blended, "noise/field", 0.0);
   reporter.printRatio("noise/field", "noise/alone", 0.0);
+  reporter.printRatio("standard/error", "standard/maps-kept", 0.0);
+  reporter.printRatio("standard/calibration", "standard/maps-kept", 0.0);
   return 0;
 }
 
