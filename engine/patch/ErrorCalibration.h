@@ -19,8 +19,8 @@ namespace teren {
 /// with the nodes kDepth levels finer below them (or of level 0, if that is nearer): their gap is measured
 /// exactly, over all triangles. To the squared gap is added the square of what those finer nodes' own errors
 /// are expected to reach at most, from the calibration of their level: differences at different scales are
-/// all but independent, so their largest values add up like deviations; against brute force the sum is 0.86
-/// to 1.08 of the truth in the median (doc/accuracy.md). From the samples' errors and bends follow the two
+/// all but independent, so their largest values add up like deviations; against brute force the sum is 0.93
+/// to 1.16 times the truth in the median (doc/accuracy.md). From the samples' errors and bends follow the two
 /// numbers of LevelErrors by least squares of the relative error, and how far samples scatter around them.
 ///
 /// Whatever the plugins promise, this is what they do. Cut layers, filters on coarse maps, coarse fields and

@@ -9,6 +9,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +25,7 @@
 #include "patch/ErrorCalibration.h"
 #include "patch/NodeGap.h"
 #include "patch/NodeTask.h"
+#include "tests/engine/world/TestLayer.h"
 #include "tests/engine/world/TestWorld.h"
 #include "world/Layer.h"
 
@@ -234,6 +238,28 @@ TEST(NodeErrors, AreThereBeforeAnythingIsMeasuredAndOfTheRightSize) {
       EXPECT_GT(ratio, 0.5) << description.layers[0].generator << ", level " << level;
       EXPECT_LT(ratio, 6.0) << description.layers[0].generator << ", level " << level;
     }
+  }
+}
+
+TEST(NodeErrors, TakePromisesThatMakeNoSenseForTwiceTheDeviation) {
+  class Boaster final : public Generator {
+   public:
+    explicit Boaster(double residual) : residual_(residual) {}
+    HeightRange range() const override { return {0.0, 3.0, -9.0, 9.0}; }
+    double residual(int, int, double) const override {
+      if (residual_ == 0.0) throw std::runtime_error("no idea");
+      return residual_;
+    }
+    std::unique_ptr<GenerationTask> begin(const MapRequest&, HeightView) const override { return nullptr; }
+
+   private:
+    double residual_;
+  };
+  for (const double nonsense : {0.0, -1.0, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
+    const std::vector<Layer> layers{makeTestLayer({}, std::make_shared<Boaster>(nonsense))};
+    const NodeErrors errors(layers, 2.0, 4);
+    EXPECT_EQ(errors.estimate(1), kPromisedPeak * 6.0) << nonsense;
+    EXPECT_EQ(errors.estimate(4), kPromisedPeak * 3.0) << nonsense;  // cut: the deviation alone
   }
 }
 
