@@ -47,7 +47,7 @@ SandWindow::SandWindow(SandSession& session, QSize size, bool wireframe)
       root_(uncached()),
       eye_(new SoPerspectiveCamera),
       camera_(*eye_),
-      area_(new RenderArea(this)),
+      area_(new RenderArea(new QWidget(this))),  // it takes its parent's whole size
       wireframe_(wireframe) {
   root_->ref();
   root_->addChild(eye_);
@@ -75,7 +75,7 @@ void SandWindow::layOut(QSize size) {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   auto* both = new QHBoxLayout;
-  both->addWidget(area_->getWidget(), 1);
+  both->addWidget(area_->getParentWidget(), 1);
   panel_ = new SandPanel(panelActions(), this);
   auto* scrolled = new QScrollArea(this);  // so that the window may be lower than the panel
   scrolled->setWidget(panel_);
@@ -88,7 +88,9 @@ void SandWindow::layOut(QSize size) {
   auto* help = new QLabel(QString::fromStdString(sandHelp()), this);
   help->setMargin(3);
   help->setWordWrap(true);
-  help->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  QSizePolicy lines(QSizePolicy::Ignored, QSizePolicy::Fixed);  // as many as the width takes
+  lines.setHeightForWidth(true);
+  help->setSizePolicy(lines);
   layout->addWidget(help);
   resize(size);
 }

@@ -115,6 +115,20 @@ TEST_F(SandWindowEvents, OfTheLeftButtonDigAGrooveUnderTheMouse) {
   EXPECT_TRUE(session_->sandbox().surface().validate());
 }
 
+TEST_F(SandWindowEvents, ReachThePanelBesideTheSandWhateverTheWindowsSize) {
+  for (const QSize size : {QSize(800, 500), QSize(1200, 900), QSize(400, 300)}) {
+    window_->resize(size);
+    EXPECT_TRUE(settle());
+    EXPECT_EQ(window_->size(), size);
+    const QRect sand(canvas().mapTo(window_.get(), QPoint(0, 0)), canvas().size());
+    const QRect panel(window_->panel().mapTo(window_.get(), QPoint(0, 0)),
+                      QSize(window_->panel().width(), 100));
+    EXPECT_FALSE(sand.intersects(panel));
+    EXPECT_GT(sand.width(), size.width() / 4);
+    EXPECT_GT(sand.height(), size.height() / 2);
+  }
+}
+
 TEST_F(SandWindowEvents, BesideTheSandAndBeyondItsBorderHarmNothing) {
   drag({3, 3}, seen(0.5, 0.5));
   EXPECT_TRUE(settle());
