@@ -4,6 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include <Inventor/actions/SoGLRenderAction.h>
+#include <Inventor/nodes/SoCallback.h>
 #include <Inventor/nodes/SoDirectionalLight.h>
 #include <Inventor/nodes/SoEnvironment.h>
 #include <Inventor/nodes/SoPerspectiveCamera.h>
@@ -15,9 +17,10 @@
 namespace teren {
 namespace {
 
-constexpr float kNearest = 1.0F;         // [m] the near clipping plane
-constexpr float kFarthestFactor = 1.6F;  // far clipping plane in view distances: to the corners of the square
-constexpr float kFarthestAtLeast = 500.0F;  // [m] so that the sky fits in
+// [m] The clipping planes under logarithmic depth, and under the ordinary one, which wears thin between them.
+constexpr float kNearest = 0.5F, kFarthest = 100e3F;
+constexpr float kOrdinaryNearest = 1.0F, kOrdinaryFarthest = 500.0F;  // the sky fits in
+constexpr float kFarthestFactor = 1.6F;  // the far one in view distances at least: to the square's corners
 
 SoSeparator* uncached() {
   auto* separator = new SoSeparator;
@@ -31,7 +34,6 @@ SoSeparator* uncached() {
 FlyScene::FlyScene(const Daylight& light, Engine& engine)
     : root_(uncached()), camera_(new SoPerspectiveCamera), terrain_(new SoTerrain), sky_(light) {
   root_->ref();
-  camera_->nearDistance = kNearest;
   root_->addChild(camera_);
   root_->addChild(sky_.node());
   auto* environment = new SoEnvironment;
@@ -45,13 +47,18 @@ FlyScene::FlyScene(const Daylight& light, Engine& engine)
   terrain_->setScene(engine.scene());  // first: fields of a node without an engine of its own are few
   terrain_->waterLevel = light.waterLevel;
   terrain_->hazeColor = light.haze;
+  terrain_->logarithmicDepth = TRUE;
   setViewDistance(engine.options().view.reach(engine.world()));
   SoSeparator* land = uncached();
   land->addChild(terrain_);
   root_->addChild(land);
+  auto* drawn = new SoCallback;
+  drawn->setCallback(landIsDrawn, this);
+  root_->addChild(drawn);
+  root_->addChild(depth_.node());
   for (std::size_t index = 0; index < engine.objectCount(); ++index) {
     models_.push_back(std::make_unique<ObjectModel>(engine.object(index).model()));
-    root_->addChild(models_.back()->node());
+    depth_.node()->addChild(models_.back()->node());
   }
 }
 
@@ -61,9 +68,24 @@ FlyScene::~FlyScene() {
 }
 
 void FlyScene::setViewDistance(double viewDistance) {
-  const auto distance = static_cast<float>(viewDistance);
-  camera_->farDistance = std::max(kFarthestAtLeast, kFarthestFactor * distance);
-  terrain_->viewDistance = distance;
+  terrain_->viewDistance = static_cast<float>(viewDistance);
+  setPlanes();
+}
+
+/// Between the land and the objects of one picture.
+void FlyScene::landIsDrawn(void* scene, SoAction* action) {
+  if (!action->isOfType(SoGLRenderAction::getClassTypeId())) return;
+  auto& me = *static_cast<FlyScene*>(scene);
+  me.depth_.turnOn(me.terrain_->drewLogarithmicDepth() != FALSE);
+}
+
+/// For the depth that the land had in the last picture.
+void FlyScene::setPlanes() {
+  const bool logarithmic = terrain_->drewLogarithmicDepth() != FALSE;
+  camera_->nearDistance = logarithmic ? kNearest : kOrdinaryNearest;
+  camera_->farDistance = std::max(logarithmic ? kFarthest : kOrdinaryFarthest,
+                                  kFarthestFactor * terrain_->viewDistance.getValue());
+  depth_.setPlanes(camera_->nearDistance.getValue(), camera_->farDistance.getValue());
 }
 
 // Snapshots of two engines have nothing in common.
@@ -89,6 +111,7 @@ void FlyScene::show(Flight& flight, const Viewpoint& view, CameraRig::Person per
   if (zero_.follow(eye.position, eye.height, pitch)) moveZero(pitch);
   if (std::exchange(changes_, flight.changes()) != flight.changes()) showOtherLand(flight.engine());
   terrain_->setScene(flight.engine().scene());
+  setPlanes();
 
   // The camera of Inventor looks down its -z axis with y up; an object's rest looks north with z up.
   const SbRotation upright(SbVec3f(1.0F, 0.0F, 0.0F), std::numbers::pi_v<float> / 2.0F);

@@ -7,18 +7,23 @@
 
 #include "apps/fly/CameraRig.h"
 #include "apps/fly/Daylight.h"
+#include "apps/fly/DepthShader.h"
 #include "apps/fly/Flight.h"
 #include "apps/fly/ObjectModel.h"
 #include "apps/fly/SceneZero.h"
 #include "apps/fly/SkyDome.h"
 
+class SoAction;
 class SoPerspectiveCamera;
 class SoSeparator;
 class SoTerrain;
 
 namespace teren {
 
-/// Make it after SoQt::init and SoTerrain::initClass; it must go before Coin does.
+/// Make it after SoQt::init and SoTerrain::initClass; it must go before Coin does. Its depth is logarithmic,
+/// from half a metre to a hundred kilometres; where SoTerrain has no shaders it is the ordinary one, with
+/// clipping planes closer together: there, what lies less apart than 1e-7 of the square of its
+/// distance from the eye [m] may flicker.
 class FlyScene {
  public:
   /// Shows the engine's objects of this moment. The haze hides the land where its view ends.
@@ -38,12 +43,15 @@ class FlyScene {
   SbVec3f place(const Position& position, double height, double pitch) const;
   void moveZero(double pitch);
   void setViewDistance(double distance);
+  void setPlanes();
+  static void landIsDrawn(void* scene, SoAction* action);
   void showOtherLand(const Engine& engine);
 
   SoSeparator* root_;  // referenced
   SoPerspectiveCamera* camera_;
   SoTerrain* terrain_;
   SkyDome sky_;
+  DepthShader depth_;
   std::vector<std::unique_ptr<ObjectModel>> models_;
   SceneZero zero_;
   int changes_ = 0;  // of the flight's engine, seen so far

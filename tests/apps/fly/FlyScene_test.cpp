@@ -84,6 +84,18 @@ int difference(const QImage& one, const QImage& other) {
   return most;
 }
 
+/// Pixels of the first aircraft's paint.
+int paintedPixels(const QImage& picture) {
+  int count = 0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const QRgb pixel = picture.pixel(x, y);
+      count += qRed(pixel) > 100 && qGreen(pixel) < 60 && qBlue(pixel) < 60 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
 TEST(FlyScene, TheSameFlightOverTheSameGroundGivesTheSamePictures2To40MetresAway) {
   const QSize size(480, 270);
   const std::vector<QImage> here = flightFrom(5, 6, size);
@@ -92,6 +104,8 @@ TEST(FlyScene, TheSameFlightOverTheSameGroundGivesTheSamePictures2To40MetresAway
   for (std::size_t frame = 0; frame < here.size(); ++frame) {
     ASSERT_EQ(here[frame].size(), size);
     EXPECT_LE(difference(here[frame], there[frame]), 1) << "frame " << frame;
+    EXPECT_EQ(paintedPixels(here[frame]) > 20, frame < here.size() / 2)
+        << "from outside it is before the land";
     if (frame == 0) continue;
     EXPECT_GT(difference(here[frame], here[frame - 1]), 30) << "it does not move";
   }
