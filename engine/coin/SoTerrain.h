@@ -80,8 +80,11 @@ class SoTerrain : public SoNode {
   /// [m] The water's surface. -1e6 or less (and anything not finite) means a dry world: no water is drawn.
   /// Water is never picked.
   SoSFFloat waterLevel;
-  /// [m] World position of the scene's zero. Move it along with the camera: scene coordinates are floats, so
-  /// keep them below some ten kilometres. Costs nothing to change; -1e30 ... 1e30.
+  /// [m] World position of the scene's zero. Move it along with the camera: scene coordinates are floats.
+  /// Within 64 m of the zero, of a camera 10^12 m from the world's, vertices half a metre away stray less
+  /// than 0.01 px at 1280 x 720; 2 km away, 0.2 px. Best is a sample's place: rounded to double it
+  /// means that sample exactly, also where doubles are coarser than the samples. Costs nothing to change;
+  /// -1e30 ... 1e30.
   SoSFVec3d origin;
   /// What the ground fades into, each part 0 ... 1; give the background the same colour.
   SoSFColor hazeColor;
