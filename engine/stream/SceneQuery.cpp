@@ -7,6 +7,7 @@
 
 #include "height/Surface.h"
 #include "stream/SceneIndex.h"
+#include "stream/SceneRay.h"
 
 namespace teren {
 
@@ -166,6 +167,17 @@ void SceneQuery::points(std::span<const Position> places, std::span<DrawnPoint> 
   for (std::size_t first = 0; first < places.size(); first += kBatch) {
     const std::size_t count = std::min(kBatch, places.size() - first);
     state_->answer(places.subspan(first, count), answers.subspan(first, count));
+  }
+}
+
+void SceneQuery::firstHits(std::span<const Ray> rays, std::span<RayHit> hits) const {
+  assert(rays.size() == hits.size());
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const Ray& ray = rays[k];
+    hits[k] = {};
+    if (!SceneRay::isRay(ray)) continue;
+    const bool covered = state_->find(ray.from).mesh != nullptr;
+    hits[k] = SceneRay(state_->index, state_->scene->spacing(), state_->intervals, ray, covered).firstHit();
   }
 }
 

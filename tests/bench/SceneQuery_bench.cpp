@@ -12,6 +12,7 @@
 #include "teren/Hash.h"
 #include "teren/SceneQuery.h"
 
+#include "stream/Sweep.h"
 #include "tests/bench/MedianReporter.h"
 #include "tests/engine/stream/PatchGround.h"
 #include "tests/engine/stream/PatchworkScene.h"
@@ -138,6 +139,70 @@ void everyMesh(benchmark::State& state, const std::shared_ptr<const Scene>& scen
   state.SetItemsProcessed(state.iterations() * 64);
 }
 
+enum class Aim { down, mouse, graze };
+
+/// 4,096 rays from places over the ground: straight down; as from an eye 100 m high, within 45 degrees below
+/// the horizon; and nearly level, 20 m above the ground where they begin.
+std::vector<Ray> raysOver(const std::vector<Position>& places, Aim aim) {
+  Dice dice(2);
+  std::vector<Ray> rays;
+  for (std::size_t k = 0; k < 4096; ++k) {
+    Ray& ray = rays.emplace_back();
+    ray.from = places[k];
+    ray.height = aim == Aim::graze ? 80.0 : 160.0;
+    const double down = aim == Aim::graze ? 0.01 : 1.0;
+    if (aim != Aim::down) {
+      ray.direction = {dice.between(-1, 1), dice.between(-1, 1), -down * dice.between(0, 1)};
+    }
+  }
+  return rays;
+}
+
+void firstHits(benchmark::State& state, const std::shared_ptr<const Scene>& scene,
+               const std::vector<Ray>& rays) {
+  const SceneQuery query(scene, kIntervals);
+  std::vector<RayHit> hits(rays.size());
+  for (auto _ : state) {
+    query.firstHits(rays, hits);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
+}
+
+/// Moeller and Trumbore's test of every triangle, four rays.
+void everyTriangle(benchmark::State& state, const std::shared_ptr<const Scene>& scene,
+                   const std::vector<Ray>& rays) {
+  const auto cross = [](const Vector3& a, const Vector3& b) {
+    return Vector3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  };
+  for (auto _ : state) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double x = rays[k].from.x(kIntervals * kSpacing), y = rays[k].from.y(kIntervals * kSpacing);
+      const Vector3 way{rays[k].direction[0], rays[k].direction[1], rays[k].direction[2]};
+      double first = 1e300;
+      for (const auto& mesh : scene->meshes()) {
+        const double step = kSpacing * static_cast<double>(std::int64_t{1} << mesh->level);
+        const Vector3 from{x - static_cast<double>(mesh->originColumn) * kSpacing,
+                           y - static_cast<double>(mesh->originRow) * kSpacing, rays[k].height};
+        const auto corner = [&](std::uint32_t number) {
+          const SurfaceVertex& vertex = mesh->vertices[number];
+          return Vector3{vertex.column * step, vertex.row * step, static_cast<double>(vertex.height)};
+        };
+        for (std::size_t at = 0; at < mesh->indices->size(); at += 3) {
+          const Vector3 a = corner((*mesh->indices)[at]), ab = corner((*mesh->indices)[at + 1]) - a,
+                        ac = corner((*mesh->indices)[at + 2]) - a, p = cross(way, ac), t = from - a;
+          const double whole = dot(ab, p), u = dot(t, p) / whole;
+          const Vector3 q = cross(t, ab);
+          const double v = dot(way, q) / whole, time = dot(ac, q) / whole;
+          if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && time >= 0.0 && time < first) first = time;
+        }
+      }
+      benchmark::DoNotOptimize(first);
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * 4);
+}
+
 /// Making the query of a snapshot, from nothing and from that of the snapshot before.
 void make(benchmark::State& state, const std::shared_ptr<const Scene>& scene, bool again) {
   const SceneQuery before(scene, kIntervals);
@@ -165,6 +230,14 @@ int runAll(int argc, char** argv) {
     add("raster", [&, scene = scene](benchmark::State& state) { batched(state, scene, rows); });
     add("single", [&, scene = scene](benchmark::State& state) { single(state, scene, everywhere); });
     add("every-mesh", [&, scene = scene](benchmark::State& state) { everyMesh(state, scene, everywhere); });
+    for (const auto& [what, aim] :
+         {std::pair{"down", Aim::down}, {"mouse", Aim::mouse}, {"graze", Aim::graze}}) {
+      const std::vector<Ray> rays = raysOver(everywhere, aim);
+      add(what, [=](benchmark::State& state) { firstHits(state, scene, rays); });
+    }
+    add("every-triangle", [scene = scene, rays = raysOver(everywhere, Aim::mouse)](benchmark::State& state) {
+      everyTriangle(state, scene, rays);
+    });
     add("make", [&, scene = scene](benchmark::State& state) { make(state, scene, false); });
     add("make-again", [&, scene = scene](benchmark::State& state) { make(state, scene, true); });
   }
@@ -177,6 +250,11 @@ int runAll(int argc, char** argv) {
                 1e3 * reporter.median(std::string("raster") + name) / places,
                 1e3 * reporter.median(std::string("single") + name) / places,
                 1e3 * reporter.median(std::string("every-mesh") + name) / 64.0);
+    std::printf("a ray, us%s: down %.2f, mouse %.2f, graze %.2f, every triangle %.0f\n", name,
+                reporter.median(std::string("down") + name) / 4096.0,
+                reporter.median(std::string("mouse") + name) / 4096.0,
+                reporter.median(std::string("graze") + name) / 4096.0,
+                reporter.median(std::string("every-triangle") + name) / 4.0);
     reporter.printRatio("single", "scattered", 0.0, name);
   }
   return 0;

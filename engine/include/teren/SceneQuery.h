@@ -4,10 +4,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 
+#include "teren/Object.h"
 #include "teren/Position.h"
 #include "teren/Scene.h"
 
@@ -24,6 +27,39 @@ struct DrawnPoint {
 /// Every height lies within this share of the largest of the triangle's heights (at least 1 m) of exact
 /// arithmetic, every component of a normal within it of the exact one.
 inline constexpr double kDrawnPointError = 0x1p-46;
+
+/// A way in a straight line, or a part of one.
+struct Ray {
+  Position from;
+  double height = 0.0;  ///< [m] where it begins; at most kMostHeight above or below zero
+  std::array<double, 3> direction{0.0, 0.0, -1.0};  ///< east, north, up; finite, of any length but 0
+  /// How far it goes, in lengths of `direction`: 0 ... infinity.
+  double length = std::numeric_limits<double>::infinity();
+};
+
+enum class RayEnd : std::uint8_t {
+  refused,  ///< a number of the ray is out of its range, or NaN
+  nothing,  ///< it hits nothing that is drawn
+  ground,
+};
+
+/// The first triangle that a ray hits, where it begins and where it ends included, from above or from below.
+struct RayHit {
+  RayEnd end = RayEnd::refused;
+  bool fromBelow = false;  ///< the ray comes from the triangle's lower side
+  std::int8_t level = 0;   ///< of the mesh
+  double way = 0.0;        ///< to the hit, in lengths of Ray::direction
+  /// Up to here, in the same measure, ground is drawn below or above all of the ray: what it hits, and that
+  /// it hits nothing, is sure only so far. Equal to `way` (or to Ray::length) where it is sure altogether.
+  double known = 0.0;
+  std::array<double, 3> normal{0.0, 0.0, 1.0};  ///< unit; of the triangle, upwards whatever side was hit
+};
+
+/// [m] How far a hit is from where the ray meets the triangle's plane in exact arithmetic, along the height
+/// of the triangle over it, where the triangle or the ray's beginning is so far [m] away.
+constexpr double rayError(double distance) {
+  return 1e-9 + 0x1p-44 * distance;
+}
 
 /// Heights and rays on a snapshot. Immutable: any thread may ask, at the same time. It keeps the snapshot.
 class SceneQuery {
@@ -47,6 +83,13 @@ class SceneQuery {
   /// wherever they lie (bench-scene-query), bound by memory where a scene is larger than the caches:
   /// neighbours in `places` that are neighbours on the ground share what was fetched.
   void points(std::span<const Position> places, std::span<DrawnPoint> answers) const;
+
+  /// Answers every ray; both spans have the same length (assert). What a ray crosses it hits, on the line
+  /// between two triangles or two meshes and on a vertex too; only where it just touches a ridge or a summit
+  /// without crossing, within rounding, it may pass. A ray in a triangle's own plane hits the triangle where
+  /// it comes to it. Allocates nothing. Costs a microsecond or two where it comes down, more in proportion to
+  /// the blocks of 8 x 8 squares it grazes (bench-scene-query).
+  void firstHits(std::span<const Ray> rays, std::span<RayHit> hits) const;
 
  private:
   class State;
