@@ -62,14 +62,16 @@ struct Engine::State final : Ground {
         options(theOptions),
         streamer(*world, options),
         objects(world->pitch()),
-        scene(std::make_shared<const Scene>(0, world->spacing(0),
-                                            std::vector<std::shared_ptr<const Mesh>>{})) {}
+        scene(
+            std::make_shared<const Scene>(0, world->spacing(0), std::vector<std::shared_ptr<const Mesh>>{})),
+        query(std::make_shared<const SceneQuery>(scene, world->intervals())) {}
 
   std::shared_ptr<const World> world;
   EngineOptions options;
   Streamer streamer;
   ObjectSet objects;
   std::shared_ptr<const Scene> scene;
+  mutable std::shared_ptr<const SceneQuery> query;  // of `scene` once somebody has asked
   std::size_t sceneTriangles = 0;
   std::chrono::nanoseconds lastUpdate{0};
 
@@ -77,16 +79,23 @@ struct Engine::State final : Ground {
   std::optional<double> height(const Position& position) const override;
   double pitch() const noexcept override { return world->pitch(); }
   std::optional<double> drawnHeight(const Position& position) const;
+  std::shared_ptr<const SceneQuery> sceneQuery() const;
 
   void choose() { streamer.choose(objects.motions(), objects.active()); }
   void publish();
 };
 
+std::shared_ptr<const SceneQuery> Engine::State::sceneQuery() const {
+  if (query->scene() != scene) {
+    query = std::make_shared<const SceneQuery>(scene, world->intervals(), query.get());
+  }
+  return query;
+}
+
 std::optional<double> Engine::State::drawnHeight(const Position& position) const {
-  if (!position.valid()) return std::nullopt;
-  const int level = options.view.level;
-  const NodeStore& nodes = streamer.nodes();
-  return nodes.isDrawn(nodeAt(position, level)) ? nodes.height(position, level) : std::nullopt;
+  DrawnPoint point;
+  sceneQuery()->points({&position, 1}, {&point, 1});
+  return point.there ? std::optional(point.height) : std::nullopt;
 }
 
 std::optional<double> Engine::State::height(const Position& position) const {
@@ -182,6 +191,9 @@ void Engine::settle(const std::function<bool(std::size_t, std::size_t)>& progres
 
 std::shared_ptr<const Scene> Engine::scene() const noexcept {
   return state_->scene;
+}
+std::shared_ptr<const SceneQuery> Engine::sceneQuery() const {
+  return state_->sceneQuery();
 }
 std::optional<double> Engine::drawnHeight(const Position& position) const {
   return state_->drawnHeight(position);

@@ -15,7 +15,8 @@ namespace teren {
 namespace {
 
 // The containers' own nodes and the blocks that count references, as allocated (estimated).
-constexpr std::size_t kBytesPerPiece = 256;     // in two maps and a scene
+constexpr std::size_t kBytesPerPiece = 600;     // in two maps, a scene, and two queries of scenes
+constexpr std::size_t kBytesPerBorder = 4096;   // and of its triangles in these
 constexpr std::size_t kTreeBytesPerNode = 160;  // leaf, control block, its share of the branches
 constexpr std::size_t kBendBytes = 56;          // in its map
 
@@ -146,7 +147,7 @@ ChangePlan NodeStore::plan(const DrawnChange& change) const {
       if (old != pieces_.end() && (old->second.nodes.empty() || old->second.nodes == piece.nodes)) {
         kept.insert(piece.name);
       } else {
-        result.bytes += plannedBytes(piece) + kBytesPerPiece;
+        result.bytes += plannedBytes(piece) + bookkeeping(piece.name);
         result.build.push_back(std::move(piece));
       }
     }
@@ -209,6 +210,7 @@ bool NodeStore::apply(const DrawnChange& change, std::span<const BuiltPiece> pie
     pieces_.emplace(built.plan.name, Drawn{id, bytes, isBorder ? built.plan.nodes : std::vector<NodeKey>{}});
     meshes_.emplace_hint(meshes_.end(), id, built.mesh);
     meshBytes_ += bytes;
+    bookkeepingBytes_ += bookkeeping(built.plan.name);
   }
   ++serial_;
   return true;
@@ -224,8 +226,13 @@ void NodeStore::noteError(const PiecePlan& plan, Mesh& mesh) const {
 void NodeStore::dropPiece(const PieceName& name) {
   const auto piece = pieces_.find(name);
   meshBytes_ -= piece->second.bytes;
+  bookkeepingBytes_ -= bookkeeping(name);
   meshes_.erase(piece->second.id);
   pieces_.erase(piece);
+}
+
+std::size_t NodeStore::bookkeeping(const PieceName& name) noexcept {
+  return kBytesPerPiece + (name.piece == Piece::border ? kBytesPerBorder : 0);
 }
 
 std::size_t NodeStore::bytesOf(const PieceName& name, const Mesh& mesh) noexcept {
@@ -236,64 +243,14 @@ std::size_t NodeStore::bytesOf(const PieceName& name, const Mesh& mesh) noexcept
 
 // ---- Heights
 
-namespace {
-
-/// Samples of a node's own level from its south-west corner.
-std::pair<double, double> samplesInside(const NodeKey& key, const Position& position, int intervals) {
-  const double scale = intervals / static_cast<double>(std::int64_t{1} << key.level);
-  return {(static_cast<double>(position.i - (key.i << key.level)) + position.u) * scale,
-          (static_cast<double>(position.j - (key.j << key.level)) + position.v) * scale};
-}
-
-}  // namespace
-
 std::optional<double> NodeStore::height(const Position& position, int level) const {
   const NodeKey key = nodeAt(position, level);
   const NodeHeights held = heights(key);
   if (!held) return std::nullopt;
-  const auto [x, y] = samplesInside(key, position, intervals_);
+  const double scale = intervals_ / static_cast<double>(std::int64_t{1} << level);
+  const double x = (static_cast<double>(position.i - (key.i << level)) + position.u) * scale;
+  const double y = (static_cast<double>(position.j - (key.j << level)) + position.v) * scale;
   return triangleHeight(std::as_const(*held).view(), x, y);
-}
-
-std::optional<double> NodeStore::drawnHeight(const Position& position) const {
-  NodeKey key;
-  const NodeHeights* drawn = drawn_.find(nodeAt(position, 0), LookUp::nearestCoarser, &key);
-  if (!drawn) return std::nullopt;
-  const auto [x, y] = samplesInside(key, position, intervals_);
-  const bool isInside = x >= 1.0 && y >= 1.0 && x <= intervals_ - 1 && y <= intervals_ - 1;
-  if (!isInside) {
-    if (const std::optional<double> found = borderHeight(key, x, y)) return found;
-  }
-  return triangleHeight(std::as_const(**drawn).view(), x, y);
-}
-
-std::optional<double> NodeStore::borderHeight(const NodeKey& node, double x, double y) const {
-  const auto border = pieces_.find({node, Piece::border});
-  if (border == pieces_.end()) return std::nullopt;
-  const Mesh& mesh = *meshes_.at(border->second.id);
-  const auto scale = static_cast<double>(std::int64_t{1} << (node.level - mesh.level));
-  const double column = x * scale, row = y * scale;
-  // Rounding may put a point on an edge just outside both triangles: it is in the one it is least outside of.
-  constexpr double kOutside = -1e-9;
-  double best = kOutside;
-  std::optional<double> height;
-  for (std::size_t k = 0; k < mesh.indices->size(); k += 3) {
-    const auto corner = [&](std::size_t c) -> const SurfaceVertex& {
-      return mesh.vertices[(*mesh.indices)[k + c]];
-    };
-    const auto twiceArea = [&](const SurfaceVertex& a, const SurfaceVertex& b) {
-      return (a.column - column) * (b.row - row) - (b.column - column) * (a.row - row);
-    };
-    const SurfaceVertex &a = corner(0), &b = corner(1), &c = corner(2);
-    const double first = twiceArea(b, c), second = twiceArea(c, a), third = twiceArea(a, b);
-    const double whole = first + second + third, least = std::min({first, second, third}) / whole;
-    if (least < best || (height && least == best)) continue;
-    best = least;
-    height = (first * static_cast<double>(a.height) + second * static_cast<double>(b.height) +
-              third * static_cast<double>(c.height)) /
-             whole;
-  }
-  return height;
 }
 
 std::shared_ptr<const Scene> NodeStore::snapshot() const {
@@ -307,7 +264,7 @@ std::shared_ptr<const Scene> NodeStore::snapshot() const {
 
 std::size_t NodeStore::bytes() const noexcept {
   return heightBytes_ + meshBytes_ + tree_.bytes() + drawn_.bytes() + indices_.bytes() +
-         bends_.size() * kBendBytes + pieces_.size() * kBytesPerPiece;
+         bends_.size() * kBendBytes + bookkeepingBytes_;
 }
 
 std::size_t NodeStore::heldBytes() const noexcept {

@@ -100,9 +100,6 @@ class NodeStore {
   /// [m] The triangles of the node of this level at a valid position; empty where it is not
   /// held.
   std::optional<double> height(const Position& position, int level) const;
-  /// [m] The triangles drawn at a valid position; empty where no node is drawn. Along an edge of the drawn
-  /// set, where seams are still to come: the node's own.
-  std::optional<double> drawnHeight(const Position& position) const;
 
   /// Grows with every change of the drawn set.
   std::uint64_t serial() const noexcept { return serial_; }
@@ -125,19 +122,20 @@ class NodeStore {
   };
   struct Surroundings;
 
+  /// Of a piece, besides its mesh.
+  static std::size_t bookkeeping(const PieceName& name) noexcept;
   static std::size_t bytesOf(const PieceName& name, const Mesh& mesh) noexcept;
   std::size_t plannedBytes(const PiecePlan& plan) const;
   std::vector<PiecePlan> piecesOwnedBy(const NodeKey& node, const Surroundings& after) const;
   bool isPossible(const DrawnChange& change) const;
   void dropPiece(const PieceName& name);
   void noteError(const PiecePlan& plan, Mesh& mesh) const;
-  std::optional<double> borderHeight(const NodeKey& node, double x, double y) const;
 
   double spacing_;
   int intervals_;
   PatchTree<NodeHeights> tree_;
   std::unordered_map<NodeKey, float, NodeKeyHash> bends_;  // [m] of the nodes held
-  std::size_t heightBytes_ = 0, meshBytes_ = 0;
+  std::size_t heightBytes_ = 0, meshBytes_ = 0, bookkeepingBytes_ = 0;
   PatchTree<NodeHeights> drawn_;
   std::size_t drawnCount_ = 0;
   std::unordered_map<PieceName, Drawn, PieceNameHash> pieces_;

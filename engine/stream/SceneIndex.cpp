@@ -13,7 +13,7 @@ namespace {
 /// few.
 constexpr int kRegularBlockShift = 3;
 /// Other meshes have up to so many blocks a side.
-constexpr int kMostBlocks = 16;
+constexpr int kMostBlocks = 8;
 /// Squares of the tree are not divided further where so few meshes lie over them: a node's own, and those
 /// that join it to its eight neighbours.
 constexpr std::size_t kMostInLeaf = 9;

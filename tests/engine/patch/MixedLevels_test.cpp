@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "teren/Hash.h"
+#include "teren/SceneQuery.h"
 
 #include "height/Surface.h"
 #include "stream/JoinTask.h"
@@ -215,6 +216,7 @@ TEST_P(MixedLevels, TheDrawnHeightIsThatOfTheTriangleOverThePlace) {
   const int intervals = GetParam().intervals;
   forEachMix([&](MixedSurface& surface) {
     const auto scene = surface.store().snapshot();
+    const SceneQuery query(scene, intervals);
     for (const auto& mesh : scene->meshes()) {
       const TriangleIndices& indices = *mesh->indices;
       for (std::size_t k = 0; k < indices.size(); k += 3 * (1 + k / 24)) {
@@ -229,9 +231,10 @@ TEST_P(MixedLevels, TheDrawnHeightIsThatOfTheTriangleOverThePlace) {
         const double i = std::floor(x / intervals), j = std::floor(y / intervals);
         const Position place{static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), x / intervals - i,
                              y / intervals - j};
-        const std::optional<double> drawn = surface.store().drawnHeight(place);
-        ASSERT_TRUE(drawn.has_value());
-        ASSERT_NEAR(*drawn, height, 1e-3) << x << ", " << y;
+        DrawnPoint drawn;
+        query.points({&place, 1}, {&drawn, 1});
+        ASSERT_TRUE(drawn.there);
+        ASSERT_NEAR(drawn.height, height, 1e-3) << x << ", " << y;
       }
     }
   });
