@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "teren/PixelError.h"
+
 #include "stream/ObjectSet.h"
 #include "stream/Streamer.h"
 
@@ -87,7 +89,12 @@ struct Engine::State final : Ground {
 
 std::shared_ptr<const SceneQuery> Engine::State::sceneQuery() const {
   if (query->scene() != scene) {
-    query = std::make_shared<const SceneQuery>(scene, world->intervals(), query.get());
+    std::vector<float> errors;
+    errors.reserve(scene->meshes().size());
+    for (const auto& mesh : scene->meshes()) {
+      errors.push_back(static_cast<float>(drawnError(*world, *mesh)));
+    }
+    query = std::make_shared<const SceneQuery>(scene, world->intervals(), errors, query.get());
   }
   return query;
 }

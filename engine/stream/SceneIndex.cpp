@@ -86,11 +86,13 @@ struct SceneIndex::Square {
   }
 };
 
-SceneIndex::SceneIndex(const Scene& scene, int intervals, const SceneIndex* before) {
-  assert(intervals >= 1);
+SceneIndex::SceneIndex(const Scene& scene, int intervals, std::span<const float> errors,
+                       const SceneIndex* before) {
+  assert(intervals >= 1 && (errors.empty() || errors.size() == scene.meshes().size()));
   if (scene.meshes().empty()) return;
   placeCorner(scene, intervals);
   addMeshes(scene, before);
+  for (std::size_t k = 0; k < errors.size(); ++k) meshes_[k].error = errors[k];
   std::int64_t reach = 0;
   for (const IndexedMesh& mesh : meshes_) reach = std::max({reach, mesh.east(), mesh.north()});
   rootShift_ = leastShift_;

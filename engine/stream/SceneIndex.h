@@ -26,6 +26,7 @@ struct alignas(64) IndexedMesh {
   std::uint32_t firstBlock = 0;   ///< in SceneIndex::blockHeights
   std::uint32_t firstBucket = 0;  ///< of a bag of triangles: in SceneIndex::bucket
   HeightSpan heights;
+  float error = 0.0F;  ///< [m] as it was handed over
   std::int8_t level = 0;
   std::int8_t blockShift = 0;  ///< a block is 2^blockShift steps a side
   /// Vertices row by row and every square split from south-west to north-east. Others are bags of triangles.
@@ -49,8 +50,9 @@ static_assert(sizeof(IndexedMesh) == 64);
 /// Immutable once made. Built from another of nearly the same meshes it takes over what is known of those.
 class SceneIndex {
  public:
-  /// `intervals` n >= 1 of a node. O(meshes), and O(triangles) of those that `before` (or nullptr) lacks.
-  SceneIndex(const Scene& scene, int intervals, const SceneIndex* before);
+  /// `intervals` n >= 1 of a node; `errors` one a mesh, or none. O(meshes), and O(triangles) of those that
+  /// `before` (or nullptr) lacks.
+  SceneIndex(const Scene& scene, int intervals, std::span<const float> errors, const SceneIndex* before);
 
   /// World position of the corner that all places are counted from, in level-0 samples.
   std::int64_t cornerColumn() const noexcept { return cornerColumn_; }

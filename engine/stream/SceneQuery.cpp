@@ -81,10 +81,11 @@ void answerTriangle(const Found& found, double spacing, DrawnPoint& answer) {
 
 class SceneQuery::State {
  public:
-  State(std::shared_ptr<const Scene> theScene, int theIntervals, const State* before)
+  State(std::shared_ptr<const Scene> theScene, int theIntervals, std::span<const float> errors,
+        const State* before)
       : scene(std::move(theScene)),
         intervals(theIntervals),
-        index(*scene, theIntervals, before != nullptr ? &before->index : nullptr) {}
+        index(*scene, theIntervals, errors, before != nullptr ? &before->index : nullptr) {}
 
   Found find(const Position& place) const;
   void answer(std::span<const Position> places, std::span<DrawnPoint> answers) const;
@@ -138,7 +139,8 @@ void SceneQuery::State::answer(std::span<const Position> places, std::span<Drawn
     DrawnPoint& answer = answers[k];
     answer.there = found[k].mesh != nullptr;
     if (!answer.there) continue;
-    answer.level = static_cast<std::int8_t>(found[k].mesh->level);
+    answer.level = found[k].mesh->level;
+    answer.error = static_cast<double>(found[k].mesh->error);
     if (found[k].mesh->regular) {
       answerSquare(found[k], scene->spacing(), answer);
     } else {
@@ -147,8 +149,9 @@ void SceneQuery::State::answer(std::span<const Position> places, std::span<Drawn
   }
 }
 
-SceneQuery::SceneQuery(std::shared_ptr<const Scene> scene, int intervals, const SceneQuery* before)
-    : state_(std::make_unique<const State>(std::move(scene), intervals,
+SceneQuery::SceneQuery(std::shared_ptr<const Scene> scene, int intervals, std::span<const float> errors,
+                       const SceneQuery* before)
+    : state_(std::make_unique<const State>(std::move(scene), intervals, errors,
                                            before != nullptr ? before->state_.get() : nullptr)) {}
 SceneQuery::~SceneQuery() = default;
 SceneQuery::SceneQuery(SceneQuery&&) noexcept = default;

@@ -75,7 +75,8 @@ RayHit SceneRay::firstHit() {
     hit.known = covered_ >= end - slack_ ? sure : covered_ / scale_;
   }
   if (!hit_) return hit;
-  hit.level = static_cast<std::int8_t>(level_);
+  hit.level = mesh_->level;
+  hit.error = static_cast<double>(mesh_->error);
   const auto& [a, b, c] = triangle_;
   const Vector ab{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, ac{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
   const Vector normal{cross(ab[1], ab[2], ac[1], ac[2]), cross(ab[2], ab[0], ac[2], ac[0]),
@@ -152,8 +153,8 @@ void SceneRay::overSquares(const IndexedMesh& mesh, int blockColumn, int blockRo
     const auto [low, high] = std::minmax({bottom[0].height, bottom[1].height, top[0].height, top[1].height});
     if (!meets({low, high}, part)) return true;
     const Vector southWest = corner(mesh, bottom[0]), northEast = corner(mesh, top[1]);
-    meet(southWest, corner(mesh, bottom[1]), northEast, mesh.level);
-    meet(southWest, northEast, corner(mesh, top[0]), mesh.level);
+    meet(southWest, corner(mesh, bottom[1]), northEast, mesh);
+    meet(southWest, northEast, corner(mesh, top[0]), mesh);
     return !hit_ || part.begin <= time_ + slack_;
   });
 }
@@ -162,7 +163,7 @@ void SceneRay::meetBag(const IndexedMesh& mesh, int blockColumn, int blockRow) {
   for (const std::uint32_t triangle : index_.bucket(mesh, blockColumn, blockRow)) {
     const std::uint32_t* const corners = mesh.indices + triangle;
     meet(corner(mesh, mesh.vertices[corners[0]]), corner(mesh, mesh.vertices[corners[1]]),
-         corner(mesh, mesh.vertices[corners[2]]), mesh.level);
+         corner(mesh, mesh.vertices[corners[2]]), mesh);
   }
 }
 
@@ -184,7 +185,7 @@ bool SceneRay::meets(const HeightSpan& heights, const Span& span) const noexcept
 
 // ---- Triangles
 
-void SceneRay::meet(const Vector& a, const Vector& b, const Vector& c, int level) {
+void SceneRay::meet(const Vector& a, const Vector& b, const Vector& c, const IndexedMesh& mesh) {
   const auto [kx, ky, kz] = axes_;
   const double ax = a[kx] - shearX_ * a[kz], ay = a[ky] - shearY_ * a[kz];
   const double bx = b[kx] - shearX_ * b[kz], by = b[ky] - shearY_ * b[kz];
@@ -201,7 +202,7 @@ void SceneRay::meet(const Vector& a, const Vector& b, const Vector& c, int level
   if (!(time >= 0.0 && time <= span_.end) || (hit_ && time >= time_)) return;
   hit_ = true;
   time_ = time;
-  level_ = level;
+  mesh_ = &mesh;
   triangle_ = {a, b, c};
 }
 

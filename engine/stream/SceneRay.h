@@ -46,7 +46,7 @@ class SceneRay {
   void overMesh(const IndexedMesh& mesh, const Span& span);
   void overSquares(const IndexedMesh& mesh, int blockColumn, int blockRow, const Span& span);
   void meetBag(const IndexedMesh& mesh, int blockColumn, int blockRow);
-  void meet(const Vector& a, const Vector& b, const Vector& c, int level);
+  void meet(const Vector& a, const Vector& b, const Vector& c, const IndexedMesh& mesh);
   Span timesOver(const std::array<Vector, 3>& triangle, Span within) const noexcept;
   bool meets(const HeightSpan& heights, const Span& span) const noexcept;
   bool coverMesh(const IndexedMesh& mesh, const Span& span);
@@ -73,7 +73,7 @@ class SceneRay {
 
   bool hit_ = false;
   double time_ = 0.0;
-  int level_ = 0;
+  const IndexedMesh* mesh_ = nullptr;
   std::array<Vector, 3> triangle_{};
   bool beginsOverGround_;
   double covered_ = 0.0;  // there is ground all the way up to this time

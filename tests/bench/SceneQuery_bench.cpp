@@ -207,7 +207,7 @@ void everyTriangle(benchmark::State& state, const std::shared_ptr<const Scene>& 
 void make(benchmark::State& state, const std::shared_ptr<const Scene>& scene, bool again) {
   const SceneQuery before(scene, kIntervals);
   for (auto _ : state) {
-    const SceneQuery query(scene, kIntervals, again ? &before : nullptr);
+    const SceneQuery query(scene, kIntervals, {}, again ? &before : nullptr);
     benchmark::DoNotOptimize(query.bytes());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene->meshes().size()));

@@ -22,6 +22,9 @@ struct DrawnPoint {
   std::int8_t level = 0;  ///< of the mesh
   double height = 0.0;    ///< [m]
   std::array<double, 3> normal{0.0, 0.0, 1.0};  ///< unit; east, north, up; of the triangle
+  /// [m] How far the level-0 triangles may be from `height` here: the error of the mesh. They in turn lie
+  /// within World::query's `error` of the landscape's function.
+  double error = 0.0;
 };
 
 /// Every height lies within this share of the largest of the triangle's heights (at least 1 m) of exact
@@ -53,6 +56,7 @@ struct RayHit {
   /// it hits nothing, is sure only so far. Equal to `way` (or to Ray::length) where it is sure altogether.
   double known = 0.0;
   std::array<double, 3> normal{0.0, 0.0, 1.0};  ///< unit; of the triangle, upwards whatever side was hit
+  double error = 0.0;                           ///< [m] of the height, as DrawnPoint::error
 };
 
 /// [m] How far a hit is from where the ray meets the triangle's plane in exact arithmetic, along the height
@@ -64,10 +68,12 @@ constexpr double rayError(double distance) {
 /// Heights and rays on a snapshot. Immutable: any thread may ask, at the same time. It keeps the snapshot.
 class SceneQuery {
  public:
-  /// `intervals` is World::intervals() of the world that the scene shows. Costs about a microsecond for each
-  /// mesh that is not in `before`, and a tenth of that for the others: hand over the query of the snapshot
-  /// before where there is one (it may go afterwards).
-  SceneQuery(std::shared_ptr<const Scene> scene, int intervals, const SceneQuery* before = nullptr);
+  /// `intervals` is World::intervals() of the world that the scene shows; `errors` [m], one for each of the
+  /// scene's meshes (drawnError in PixelError.h), is what answers say of theirs; empty: 0. Costs about a
+  /// microsecond for each mesh that is not in `before`, and a tenth of that for the others: hand over the
+  /// query of the snapshot before where there is one (it may go afterwards).
+  SceneQuery(std::shared_ptr<const Scene> scene, int intervals, std::span<const float> errors = {},
+             const SceneQuery* before = nullptr);
   ~SceneQuery();
   SceneQuery(SceneQuery&&) noexcept;
   SceneQuery& operator=(SceneQuery&&) noexcept;

@@ -1,5 +1,6 @@
 #include "teren/SceneQuery.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -195,7 +196,7 @@ TEST(SceneQuery, WhatItTakesOverFromTheSnapshotBeforeChangesNoAnswer) {
   const auto second = std::make_shared<const Scene>(2, kSpacing, std::move(meshes));
   const SceneQuery fresh(second, kIntervals);
   std::optional<SceneQuery> before(std::in_place, first, kIntervals);
-  const SceneQuery query(second, kIntervals, &*before);
+  const SceneQuery query(second, kIntervals, {}, &*before);
   before.reset();
   int there = 0;
   for (int k = 0; k < 3000; ++k) {
@@ -224,6 +225,30 @@ TEST(SceneQuery, ManyThreadsMayAskAtOnce) {
   }
 }
 
+TEST(SceneQuery, SaysTheErrorOfTheMeshThatAnswers) {
+  const auto scene = mixed(2).scene();
+  std::vector<float> errors;
+  for (const auto& mesh : scene->meshes()) errors.push_back(0.5F * static_cast<float>(mesh->id));
+  const SceneQuery query(scene, kIntervals, errors), silent(scene, kIntervals);
+  Dice dice(2);
+  for (int k = 0; k < 500; ++k) {
+    const Position place = placeOf(dice.between(-64, 64), dice.between(-64, 64));
+    const DrawnPoint answer = ask(query, {place})[0];
+    RayHit hit;
+    const Ray down{place, 100.0};
+    query.firstHits({&down, 1}, {&hit, 1});
+    ASSERT_EQ(hit.error, answer.error);
+    ASSERT_EQ(ask(silent, {place})[0].error, 0.0);
+    const auto name = static_cast<std::uint64_t>(2.0 * answer.error);
+    const auto mesh = std::find_if(scene->meshes().begin(), scene->meshes().end(),
+                                   [&](const auto& one) { return one->id == name; });
+    ASSERT_NE(mesh, scene->meshes().end());
+    ASSERT_EQ(answer.level, (*mesh)->level);
+    ASSERT_LE(answer.height, static_cast<double>((*mesh)->maxHeight));
+    ASSERT_GE(answer.height, static_cast<double>((*mesh)->minHeight));
+  }
+}
+
 /// Stands at the world's zero.
 class Post final : public Object {
  public:
@@ -247,6 +272,31 @@ TEST(SceneQuery, SaysOfFinestGroundWhatTheWorldSays) {
     ASSERT_EQ(answer.height, expected.drawn);
     ASSERT_EQ(answer.normal, expected.normal);
   }
+}
+
+TEST(SceneQuery, CoarseGroundIsAsNearToTheFinestAsItSays) {
+  const auto world = test::faultWorld(3, 17, {1024.0, 64.0}, 20);
+  auto engine = Engine::create(world, {.view = {2, 2}});
+  ASSERT_TRUE(engine.ok());
+  (*engine)->add(std::make_unique<Post>());
+  (*engine)->settle();
+  const auto query = (*engine)->sceneQuery();
+  ASSERT_EQ(query->scene(), (*engine)->scene());
+  Dice dice(8);
+  std::vector<Position> places;
+  for (int k = 0; k < 2000; ++k) {
+    places.push_back(*Position::fromMetres(dice.between(-450, 450), dice.between(-450, 450), 64.0));
+  }
+  const std::vector<DrawnPoint> answers = ask(*query, places);
+  double largest = 0.0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    ASSERT_TRUE(answers[k].there);
+    const SurfacePoint exact = world->query(places[k]);
+    ASSERT_LE(std::fabs(answers[k].height - exact.drawn), answers[k].error);
+    ASSERT_LE(std::fabs(answers[k].height - exact.height), answers[k].error + exact.error);
+    largest = std::max(largest, std::fabs(answers[k].height - exact.drawn));
+  }
+  EXPECT_GT(largest, 0.0);
 }
 
 }  // namespace
