@@ -44,6 +44,9 @@ uniform vec3 light;
 varying vec3 position;
 varying vec4 ground;
 
+// No cell lies along the sides of the box, where its lattice would be seen.
+const mat2 kTurn = mat2(0.8, 0.6, -0.6, 0.8);
+
 float random(vec2 cell) {
   vec3 p = fract(cell.xyx * vec3(0.1031, 0.1030, 0.0973));
   p += dot(p, p.yzx + 33.33);
@@ -76,8 +79,8 @@ void main() {
     float finer = finest - octave;  // by how many octaves finer ones could be seen
     float weight = min(finer, 1.0) * (2.0 - finer);
     if (finer <= 0.0) continue;
-    vec3 one = noise(at * exp2(octave) + 17.0 * octave);
-    gradient += weight * one.xy;
+    vec3 one = noise(kTurn * at * exp2(octave) + 17.0 * octave);
+    gradient += weight * (one.xy * kTurn);
     value += weight * one.z;
   }
   float loose = ground.w;
