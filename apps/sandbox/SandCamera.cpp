@@ -16,7 +16,7 @@ namespace {
 constexpr double kDegreesPerPixel = 0.5;
 constexpr double kNearerPerNotch = 0.125;
 constexpr double kFieldOfView = 0.7;  // [rad] of the picture's height
-constexpr double kAllInView = 1.75;   // sides: from there the whole box is in view
+constexpr double kAllInView = 2.0;    // sides: from there the whole box is in view
 constexpr double kNearest = 0.01;     // sides
 constexpr double kFarthest = 20.0;    // sides
 constexpr double kFlattest = 1.0;     // [degree]

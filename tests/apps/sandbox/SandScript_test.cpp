@@ -89,6 +89,16 @@ TEST(SandScript, ReadsEveryCommand) {
   EXPECT_EQ(std::get<Deed>(commands[28].what), Deed::quit);
 }
 
+TEST(SandScript, ReadsTheExamplesThatComeWithTheProgram) {
+  int examples = 0;
+  for (const auto& entry : fs::directory_iterator(TEREN_SANDBOX_EXAMPLES)) {
+    const Result<SandScript> script = SandScript::fromFile(entry.path().string());
+    EXPECT_TRUE(script) << script.error().message;
+    ++examples;
+  }
+  EXPECT_GT(examples, 0);
+}
+
 TEST(SandScript, NeedsNoPictureWhereItMakesNone) {
   EXPECT_FALSE(
       SandScript::fromText("stamp 0.5 0.5\nwireframe on\ncamera tilt=20\nhash\n", "a")->needsPicture());
