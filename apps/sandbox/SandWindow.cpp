@@ -23,7 +23,9 @@
 namespace teren {
 namespace {
 
-constexpr std::chrono::milliseconds kWorkBudget(8);  // of a frame
+constexpr std::chrono::milliseconds kWorkBudget(8);  // of a frame at least,
+constexpr std::chrono::milliseconds kMostWorkBudget(
+    50);  // or as long as drawing takes, but no longer than this
 constexpr std::chrono::milliseconds kBetweenIdleTicks(16);
 constexpr std::chrono::milliseconds kBetweenFigures(150);
 constexpr std::size_t kFramesAtLeast = 4;  // before the first ones the window may still have another size
@@ -127,7 +129,7 @@ void SandWindow::begin(const SandScript* script, std::optional<Clock::duration> 
 void SandWindow::tick() {
   const Clock::time_point begin = Clock::now();
   if (leaving_ || endAsked() || begin >= end_) return finish();
-  compute(begin + kWorkBudget);
+  compute(begin + std::clamp<Clock::duration>(drawing_, kWorkBudget, kMostWorkBudget));
   publish();
   if (dirty_ || frameTimes_.count() < kFramesAtLeast) draw(begin);
   if (begin - lastFigures_ > kBetweenFigures) {
@@ -204,7 +206,9 @@ void SandWindow::noticeNewSand() {
 
 void SandWindow::draw(Clock::time_point begin) {
   dirty_ = false;
+  const Clock::time_point drawn = Clock::now();
   area_->render();
+  drawing_ = Clock::now() - drawn;
   frameTimes_.add(1e3 * seconds(Clock::now() - begin));
 }
 

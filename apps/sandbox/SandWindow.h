@@ -134,6 +134,7 @@ class SandWindow : public QWidget, public SandStage {
 
   QTimer timer_;
   std::optional<Clock::duration> duration_;
+  Clock::duration drawing_{};  // how long it took last
   Clock::time_point end_ = Clock::time_point::max(), lastFigures_{};
   double moisture_ = 0.0;  // as it is shown
   bool wireframe_, dirty_ = true, leaving_ = false;
