@@ -100,11 +100,7 @@ void CleanUp::dissolveAt(SandSurface& surface, Slides& slides, VertexId v, std::
   const Triangulation& mesh = surface.mesh();
   ring_.clear();
   mesh.forEachNeighbour(v, [this](VertexId n) { ring_.push_back(n); });
-  const std::size_t count = ring_.size();
-  const bool closed = !mesh.isOnBorder(v);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!closed && (i == 0 || i + 1 == count)) continue;
-    const VertexId to = ring_[i];
+  for (const VertexId to : ring_) {
     if (mesh.constraintsAt(to) == 0) continue;
     const auto id = mesh.constraint(v, to);
     if (id && *id < kept) dissolve(surface, slides, v, to);
@@ -115,7 +111,8 @@ void CleanUp::dissolveAt(SandSurface& surface, Slides& slides, VertexId v, std::
 void CleanUp::dissolve(SandSurface& surface, Slides& slides, VertexId a, VertexId b) {
   const Quadrangle around = quadrangleAt(surface.mesh(), a, b);
   const auto place = [&](VertexId v) { return surface.mesh().point(v); };
-  if (!inCircle(place(a), place(around.right), place(b), place(around.left))) {
+  const bool onBorder = around.left == kNoVertex || around.right == kNoVertex;
+  if (onBorder || !inCircle(place(a), place(around.right), place(b), place(around.left))) {
     surface.unconstrain(a, b);
     ++count_.dissolved;
     return;

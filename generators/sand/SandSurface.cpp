@@ -28,7 +28,7 @@ SandSurface::SandSurface(const LatticeFrame& frame, double height, double loose)
 SandSurface::SandSurface(const LatticeFrame& frame, std::span<const LatticePoint> points,
                          std::span<const double> heights, double loose, std::size_t spare)
     : mesh_(frame, heights.empty() ? 0.0 : metresFromTicks(ticksFromMetres(heights.front()))) {
-  assert(points.size() == heights.size());
+  assert(points.size() == heights.size() && points.size() <= kMostVertices);
   const std::vector<VertexId> vertices = mesh_.insert(points, heights);
   mesh_.reserve(mesh_.vertexSlots() + spare);
   loose_.reserve(mesh_.vertexSlots() + spare);
@@ -40,6 +40,12 @@ SandSurface::SandSurface(const LatticeFrame& frame, std::span<const LatticePoint
   for (std::size_t i = points.size(); i-- > 0;) {  // of equal points the first counts
     mesh_.setHeight(vertices[i], metresFromTicks(ticksFromMetres(heights[i])));
   }
+}
+
+Result<void> SandSurface::hasRoom(std::size_t vertices) {
+  if (vertices < kMostVertices) return {};
+  return Error{"the sand has " + std::to_string(vertices) + " vertices, and must have fewer than " +
+               std::to_string(kMostVertices) + " to get more"};
 }
 
 std::int64_t SandSurface::weight(VertexId v) const noexcept {
@@ -269,8 +275,8 @@ void SandSurface::clearChanges() noexcept {
 }
 
 std::size_t SandSurface::bytes() const noexcept {
-  return mesh_.bytes() + loose_.bytes() + changedVertices_.bytes() + changedTriangles_.bytes() +
-         seen_.bytes() + changes_.capacity() * sizeof(TriangleChange) +
+  return sizeof(*this) - sizeof(mesh_) + mesh_.bytes() + loose_.bytes() + changedVertices_.bytes() +
+         changedTriangles_.bytes() + seen_.bytes() + changes_.capacity() * sizeof(TriangleChange) +
          fenced_.capacity() * sizeof(TriangleId) + touched_.capacity() * sizeof(VertexId);
 }
 

@@ -29,11 +29,16 @@ namespace teren {
 /// beside the triangulation, and 1 bit a vertex and a triangle for the lists of what changed. One thread.
 class SandSurface {
  public:
+  /// More would leave no triangle's id for one more tool: 2^28 less 2^22.
+  static constexpr std::size_t kMostVertices = (std::size_t{1} << 28) - (std::size_t{1} << 22);
+  /// One sentence where a surface of so many vertices may not get more.
+  static Result<void> hasRoom(std::size_t vertices);
+
   /// A level box; `loose` [m] of it is loose, at least 0; heights are clamped to +-16384 m.
   SandSurface(const LatticeFrame& frame, double height, double loose);
-  /// Ground through points with a height [m] each, as many of both. A corner of the box that is not among
-  /// them has the first one's height, or 0. Room for `spare` vertices more is set aside, which keeps growing
-  /// cheap.
+  /// Ground through points with a height [m] each, as many of both, at most kMostVertices. A corner of the
+  /// box that is not among them has the first one's height, or 0. Room for `spare` vertices more is set
+  /// aside, which keeps growing cheap.
   SandSurface(const LatticeFrame& frame, std::span<const LatticePoint> points,
               std::span<const double> heights, double loose, std::size_t spare = 0);
 

@@ -81,8 +81,10 @@ void Sandbox::forgetChanges() noexcept {
 }
 
 std::size_t Sandbox::bytes() const noexcept {
-  return surface_.bytes() + slides_.bytes() + cleanUp_.bytes() + stamper_.bytes() + changedVertices_.bytes() +
-         changedTriangles_.bytes();
+  constexpr std::size_t kParts =
+      sizeof(surface_) + sizeof(slides_) + sizeof(cleanUp_) + sizeof(stamper_);  // each counts itself
+  return sizeof(*this) - kParts + surface_.bytes() + slides_.bytes() + cleanUp_.bytes() + stamper_.bytes() +
+         changedVertices_.bytes() + changedTriangles_.bytes();
 }
 
 }  // namespace teren

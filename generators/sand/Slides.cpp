@@ -99,6 +99,7 @@ bool Slides::divideEdges(SandSurface& surface, TriangleId t, const Face& face) {
 }
 
 bool Slides::divideEdgesAt(SandSurface& surface, VertexId v) {
+  if (!SandSurface::hasRoom(surface.mesh().vertexCount())) return false;
   const double limit = std::max(longestEdge_ / surface.step(), kShortestLimit);
   far_.clear();
   surface.mesh().forEachNeighbour(v, [&](VertexId n) {

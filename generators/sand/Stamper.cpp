@@ -7,14 +7,18 @@
 
 #include "teren/ProcessorTime.h"
 
+#include "generators/sand/OutlineClip.h"
+
 namespace teren {
 namespace {
 
 constexpr int kMostHalvings = 4;
-constexpr double kThinnestWall = 4.0;    // [steps]
+constexpr double kThinnestWall = 8.0;    // [steps]
 constexpr double kShortestFitted = 8.0;  // [steps]
 constexpr double kBeside = 0.4;          // of what is heaped up ahead
 constexpr double kMostStamps = 65536.0;
+/// A pushed tool's berm would rise by more than so many times its depth: hardly anything lies ahead.
+constexpr double kHighestBerm = 16.0;
 
 /// Deeper than the tool by as much [ticks], 2^-20 m, counts as deeper.
 constexpr std::int64_t kDeeperBy = std::int64_t{1} << 18;
@@ -45,6 +49,42 @@ bool hasId(const Triangulation& mesh, VertexId a, VertexId b, std::uint32_t id) 
   return found && *found == id;
 }
 
+/// Whether what lies at a point is an edge of this id, or a vertex of one.
+bool touches(const Triangulation& mesh, const Location& place, std::uint32_t id) noexcept {
+  const std::array<VertexId, 3>& corners = mesh.corners(place.triangle);
+  const VertexId a = corners[following(place.corner)], b = corners[preceding(place.corner)];
+  if (place.kind != Location::Kind::vertex) {
+    return place.kind == Location::Kind::edge && hasId(mesh, a, b, id);
+  }
+  bool found = false;
+  const VertexId v = corners[place.corner];
+  mesh.forEachNeighbour(v, [&](VertexId n) { found = found || hasId(mesh, v, n, id); });
+  return found;
+}
+
+/// The parts of an outline that lie in the box, where the tool is pressed in.
+std::vector<LatticeChain> placed(const SandSurface& surface, const ToolPart& part, const ToolOutline& outline,
+                                 const StampPlace& place) {
+  ToolOutline there;
+  for (const ToolPoint& p : outline) {
+    const ToolPoint from = turned(p, place);
+    there.push_back({place.x + from.x, place.y + from.y});
+  }
+  return clippedOutline(surface.mesh().frame(), there, 0.5 * part.wall);
+}
+
+/// Whether a point lies within an outline.
+bool contains(const ToolOutline& outline, const ToolPoint& p) noexcept {
+  bool inside = false;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const ToolPoint &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    const double turn = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    if ((turn > 0.0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside;
+}
+
 }  // namespace
 
 Result<void> Stamper::check(const SandSurface& surface, const ToolShape& tool,
@@ -57,31 +97,20 @@ Result<void> Stamper::check(const SandSurface& surface, const ToolShape& tool,
   if (length != 0.0 && std::fabs(length - 1.0) > 1e-9) {
     return Error{"a tool's direction must be a vector of length 1 or 0, not " + std::to_string(length)};
   }
-  const LatticeFrame& frame = surface.mesh().frame();
+  if (Result<void> room = SandSurface::hasRoom(surface.mesh().vertexCount()); !room) return room;
+  bool reaches = false, covers = false;
   for (const ToolPart& part : tool.parts()) {
-    for (std::size_t i = 0; i < part.outer.size(); ++i) {
-      const ToolPoint p = turned(part.outer[i], place);
-      const auto on = frame.snap(place.x + p.x, place.y + p.y);
-      if (!on || frame.isOnBorder(*on)) {
-        return Error{"the tool at (" + std::to_string(place.x) + ", " + std::to_string(place.y) +
-                     ") reaches beyond the sand"};
-      }
-      const ToolPoint &out = part.outer[i], &in = part.inner.front()[i];
-      if (lengthOf({out.x - in.x, out.y - in.y}) < kThinnestWall * frame.step) {
-        return Error{"the tool is too small for this sand: its walls must be at least " +
-                     std::to_string(kThinnestWall * frame.step) + " m thick"};
-      }
+    if (!(part.wall >= kThinnestWall * surface.step())) {
+      return Error{"the tool is too small for this sand: its walls must be at least " +
+                   std::to_string(kThinnestWall * surface.step()) + " m thick"};
     }
+    const bool bottom = !placed(surface, part, part.inner.front(), place).empty();
+    reaches = reaches || bottom;
+    covers = covers || (bottom && placed(surface, part, part.outer, place).empty());
   }
-  return {};
-}
-
-LatticePoint Stamper::onLattice(const SandSurface& surface, const ToolPoint& p,
-                                const StampPlace& place) const {
-  const ToolPoint there = turned(p, place);
-  const auto snapped = surface.mesh().frame().snap(place.x + there.x, place.y + there.y);
-  assert(snapped);
-  return *snapped;
+  if (reaches && !covers) return {};
+  return Error{"the tool at (" + std::to_string(place.x) + ", " + std::to_string(place.y) +
+               ") lies beyond the sand or covers all of it"};
 }
 
 Result<StampReport> Stamper::stamp(SandSurface& surface, const ToolShape& tool, const StampPlace& place) {
@@ -111,28 +140,47 @@ void Stamper::press(SandSurface& surface, const ToolPart& part, const StampPlace
                     StampReport& report) {
   const Ids ids{nextId_, nextId_ + 1};
   nextId_ += 2;
-  outline_.clear();
-  for (std::size_t i = 0; i < part.outer.size(); ++i) {
-    const LatticePoint a = onLattice(surface, part.outer[i], place);
-    outline_.push_back(a);
-    fit(surface, a, onLattice(surface, part.outer[(i + 1) % part.outer.size()], place), kMostHalvings);
+  bottom_.clear();
+  for (const LatticeChain& chain : placed(surface, part, part.inner.front(), place)) {
+    bottom_.insert(bottom_.end(), chain.points.begin(), chain.points.end());
   }
-  enforce(surface, ids.outer, report.times);
-  const LatticePoint inside = onLattice(surface, part.inner.front().front(), place);
-  flood(surface, inside, ids);
+  if (bottom_.empty()) return;
+  enforceOuter(surface, part, place, ids.outer, report.times);
+  flood(surface, ids);
   dissolveInside(surface, ids);
   charge(report.times.constraints);
-  forced_.clear();
-  for (const ToolOutline& inner : part.inner) {
-    outline_.clear();
-    for (const ToolPoint& p : inner) outline_.push_back(onLattice(surface, p, place));
-    enforce(surface, ids.inner, report.times);
-    for (const VertexId v : chain_) forced_.add(v);
-  }
-  flood(surface, inside, ids);
+  enforceInner(surface, part, place, ids.inner, report.times);
+  flood(surface, ids);
   report.contour += static_cast<int>(rim_.ids().size() + forced_.ids().size());
   dig(surface, part, place, report);
   charge(report.times.removal);
+}
+
+void Stamper::enforceOuter(SandSurface& surface, const ToolPart& part, const StampPlace& place,
+                           std::uint32_t id, StampTimes& times) {
+  for (const LatticeChain& chain : placed(surface, part, part.outer, place)) {
+    const std::vector<LatticePoint>& points = chain.points;
+    outline_.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      outline_.push_back(points[i]);
+      if (chain.closed || i + 1 < points.size()) {
+        fit(surface, points[i], points[(i + 1) % points.size()], kMostHalvings);
+      }
+    }
+    enforce(surface, chain.closed, id, times);
+  }
+}
+
+void Stamper::enforceInner(SandSurface& surface, const ToolPart& part, const StampPlace& place,
+                           std::uint32_t id, StampTimes& times) {
+  forced_.clear();
+  for (const ToolOutline& inner : part.inner) {
+    for (const LatticeChain& chain : placed(surface, part, inner, place)) {
+      outline_.assign(chain.points.begin(), chain.points.end());
+      enforce(surface, chain.closed, id, times);
+      for (const VertexId v : chain_) forced_.add(v);
+    }
+  }
 }
 
 /// Appends the points that divide the way from a to b until the ground between two of them is straight.
@@ -156,29 +204,30 @@ void Stamper::fit(SandSurface& surface, LatticePoint a, LatticePoint b, int halv
   fit(surface, middle, b, halvings - 1);
 }
 
-/// Makes outline_ vertices (in chain_) and a closed chain of constrained edges.
-void Stamper::enforce(SandSurface& surface, std::uint32_t id, StampTimes& times) {
+/// Makes outline_ vertices (in chain_) and a chain of constrained edges.
+void Stamper::enforce(SandSurface& surface, bool closed, std::uint32_t id, StampTimes& times) {
   chain_.clear();
   for (const LatticePoint p : outline_) {
     near_ = surface.insert(p, surface.mesh().triangleAt(near_));
     chain_.push_back(near_);
   }
   charge(times.insertion);
-  if (chain_.size() < 3) return;
-  for (std::size_t i = 0; i < chain_.size(); ++i) {
-    surface.constrain(chain_[i], chain_[(i + 1) % chain_.size()], id);
-  }
+  for (std::size_t i = 1; i < chain_.size(); ++i) surface.constrain(chain_[i - 1], chain_[i], id);
+  if (closed && chain_.size() > 2) surface.constrain(chain_.back(), chain_.front(), id);
   charge(times.constraints);
 }
 
-/// Finds the triangles within the outer outline and their vertices, which of these lie on it, and which on an
-/// inner one.
-void Stamper::flood(const SandSurface& surface, LatticePoint inside, const Ids& ids) {
+/// Finds the triangles around bottom_ within the outer outline and their vertices, which of these lie on it,
+/// and which on an inner one.
+void Stamper::flood(const SandSurface& surface, const Ids& ids) {
   const Triangulation& mesh = surface.mesh();
   insideTriangles_.clear();
   insideVertices_.clear();
   rim_.clear();
-  insideTriangles_.add(mesh.locate(inside, mesh.triangleAt(near_)).triangle);
+  for (const LatticePoint p : bottom_) {
+    const Location place = mesh.locate(p, mesh.triangleAt(near_));
+    if (!touches(mesh, place, ids.outer)) insideTriangles_.add(place.triangle);
+  }
   for (std::size_t n = 0; n < insideTriangles_.ids().size(); ++n) {
     const TriangleId t = insideTriangles_.ids()[n];
     const std::array<VertexId, 3>& corners = mesh.corners(t);
@@ -233,8 +282,11 @@ void Stamper::dig(SandSurface& surface, const ToolPart& part, const StampPlace& 
     cuts = true;
   };
   for (const VertexId v : forced_.ids()) cut(v);
+  const auto staysInWall = [&](VertexId v) {  // a corner of the box between the outlines
+    return v < 4 && !contains(part.inner.front(), asSeenBy(surface, surface.mesh().point(v), place));
+  };
   for (const VertexId v : insideVertices_.ids()) {
-    if (rim_.contains(v) || forced_.contains(v)) {
+    if (rim_.contains(v) || forced_.contains(v) || staysInWall(v)) {
       allInside_.add(v);
       continue;
     }
@@ -253,62 +305,61 @@ void Stamper::dig(SandSurface& surface, const ToolPart& part, const StampPlace& 
     allRims_.add(v);
     if (cuts) surface.loosen(v, loosening);
   }
-  near_ = rim_.ids().front();
 }
 
 /// Lists what may be heaped up upon, in around_, and in share_ how much of the height of a berm each gets.
-void Stamper::collectBerm(const SandSurface& surface, const ToolShape& tool, const StampPlace& place) {
-  const bool straightDown = place.directionX == 0.0 && place.directionY == 0.0;
+/// Returns the height [m] of a berm of what is due; infinite where nothing has a share.
+double Stamper::collectBerm(const SandSurface& surface, const ToolShape& tool, const StampPlace& place,
+                            bool directed) {
   const double width = settings_.bermWidth * tool.reach();
   around_.clear();
   share_.clear();
+  heaviest_ = kNoVertex;
+  double weights = 0.0;
+  std::int64_t most = 0;
   for (const VertexId v : allRims_.ids()) around_.add(v);
   for (std::size_t n = 0; n < around_.ids().size(); ++n) {
     const VertexId v = around_.ids()[n];
     const ToolPoint at = asSeenBy(surface, surface.mesh().point(v), place);
     const double distance = lengthOf(at);
     const double beyond = std::max(distance - tool.reach(), 0.0);
-    const double ahead = straightDown || distance == 0.0 ? 1.0 : kBeside + at.x / distance;
+    const double ahead = !directed || distance == 0.0 ? 1.0 : kBeside + at.x / distance;
     const double near = width > 0.0 ? 1.0 - beyond / width : beyond > 0.0 ? 0.0 : 1.0;
     share_.push_back(std::max(near, 0.0) * std::clamp(ahead, 0.0, 1.0));
+    if (share_.back() > 0.0) {
+      const std::int64_t weight = surface.weight(v);
+      weights += share_.back() * static_cast<double>(weight);
+      if (weight > most) heaviest_ = v;
+      most = std::max(most, weight);
+    }
     if (near <= 0.0) continue;
     surface.mesh().forEachNeighbour(v, [&](VertexId w) {
       if (!allInside_.contains(w)) around_.add(w);
     });
   }
+  return weights > 0.0 ? asDouble(surface.due()) / weights * kMetresPerTick : HUGE_VAL;
 }
 
 /// Pays what is due with a berm.
 void Stamper::heapUp(SandSurface& surface, const ToolShape& tool, const StampPlace& place) {
-  collectBerm(surface, tool, place);
-  double weights = 0.0;
-  VertexId heaviest = kNoVertex;
-  std::int64_t most = 0;
-  for (std::size_t n = 0; n < share_.size(); ++n) {
-    if (share_[n] == 0.0) continue;
-    const std::int64_t weight = surface.weight(around_.ids()[n]);
-    weights += share_[n] * static_cast<double>(weight);
-    if (weight > most) {
-      most = weight;
-      heaviest = around_.ids()[n];
-    }
-  }
-  if (heaviest == kNoVertex) {
+  const bool directed = place.directionX != 0.0 || place.directionY != 0.0;
+  double rise = collectBerm(surface, tool, place, directed);
+  if (directed && rise > kHighestBerm * tool.depth()) rise = collectBerm(surface, tool, place, false);
+  if (heaviest_ == kNoVertex) {
     surface.settle(allRims_.ids());
     return;
   }
-  const double rise = asDouble(surface.due()) / weights * kMetresPerTick;
   for (std::size_t n = 0; n < share_.size(); ++n) {
     surface.raise(around_.ids()[n], ticksFromMetres(rise * share_[n]));
   }
-  surface.settle({&heaviest, 1});
+  surface.settle({&heaviest_, 1});
 }
 
 std::size_t Stamper::bytes() const noexcept {
-  return sizeof(*this) + outline_.capacity() * sizeof(LatticePoint) + chain_.capacity() * sizeof(VertexId) +
-         edges_.capacity() * sizeof(edges_[0]) + insideTriangles_.bytes() + insideVertices_.bytes() +
-         rim_.bytes() + forced_.bytes() + allRims_.bytes() + allInside_.bytes() + around_.bytes() +
-         share_.capacity() * sizeof(double);
+  return sizeof(*this) + (outline_.capacity() + bottom_.capacity()) * sizeof(LatticePoint) +
+         chain_.capacity() * sizeof(VertexId) + edges_.capacity() * sizeof(edges_[0]) +
+         insideTriangles_.bytes() + insideVertices_.bytes() + rim_.bytes() + forced_.bytes() +
+         allRims_.bytes() + allInside_.bytes() + around_.bytes() + share_.capacity() * sizeof(double);
 }
 
 double stampSpacing(double speed, const ToolShape& tool) noexcept {

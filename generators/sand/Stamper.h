@@ -55,6 +55,10 @@ struct StampReport {
 /// berm of exactly that volume rises on the rim and within bermWidth around it: all around a tool that comes
 /// straight down, otherwise most ahead, less beside, nothing behind.
 ///
+/// A tool may reach beyond the box: it is cut off at the border, as if there were a wall, and what it pushes
+/// stays inside, all around it where next to nothing lies ahead. Outlines that run along the border within
+/// half the thickness of the tool's walls are put on it.
+///
 /// What is cut becomes loose; slides are up to the caller. Cost: that of the insertions, edges and removals
 /// it takes, none of which depends on the size of the mesh. One thread; keeps its scratch memory.
 class Stamper {
@@ -62,7 +66,8 @@ class Stamper {
   explicit Stamper(const StampSettings& settings) noexcept : settings_(settings) {}
 
   /// Refused, and nothing changes, where a number is not finite, the direction's length is neither 0 nor 1,
-  /// the tool reaches beyond the box, or its walls are thinner than 4 lattice steps.
+  /// the tool's underside lies beyond the box, the tool covers all of it, its walls are thinner, straight
+  /// across, than 8 lattice steps, or the surface has no room for more vertices.
   Result<StampReport> stamp(SandSurface& surface, const ToolShape& tool, const StampPlace& place);
 
   /// The constraints of the next stamp will have this id or higher ones.
@@ -81,16 +86,20 @@ class Stamper {
   };
 
   Result<void> check(const SandSurface& surface, const ToolShape& tool, const StampPlace& place) const;
-  LatticePoint onLattice(const SandSurface& surface, const ToolPoint& p, const StampPlace& place) const;
   void press(SandSurface& surface, const ToolPart& part, const StampPlace& place, StampReport& report);
+  void enforceOuter(SandSurface& surface, const ToolPart& part, const StampPlace& place, std::uint32_t id,
+                    StampTimes& times);
+  void enforceInner(SandSurface& surface, const ToolPart& part, const StampPlace& place, std::uint32_t id,
+                    StampTimes& times);
   void fit(SandSurface& surface, LatticePoint a, LatticePoint b, int halvings);
-  void enforce(SandSurface& surface, std::uint32_t id, StampTimes& times);
-  void flood(const SandSurface& surface, LatticePoint inside, const Ids& ids);
+  void enforce(SandSurface& surface, bool closed, std::uint32_t id, StampTimes& times);
+  void flood(const SandSurface& surface, const Ids& ids);
   void dissolveInside(SandSurface& surface, const Ids& ids);
   void dig(SandSurface& surface, const ToolPart& part, const StampPlace& place, StampReport& report);
   void heapUp(SandSurface& surface, const ToolShape& tool, const StampPlace& place);
   void charge(double& part) noexcept;
-  void collectBerm(const SandSurface& surface, const ToolShape& tool, const StampPlace& place);
+  double collectBerm(const SandSurface& surface, const ToolShape& tool, const StampPlace& place,
+                     bool directed);
 
   StampSettings settings_;
   std::uint32_t nextId_ = 1;
@@ -98,12 +107,14 @@ class Stamper {
   std::chrono::nanoseconds charged_{};  // all processor time until then belongs to a part
 
   std::vector<LatticePoint> outline_;
+  std::vector<LatticePoint> bottom_;  // points of the first inner outline
   std::vector<VertexId> chain_;
   std::vector<std::pair<VertexId, VertexId>> edges_;
   ChangeList insideTriangles_, insideVertices_, rim_, forced_;
   ChangeList allRims_, allInside_;  // of all parts
   ChangeList around_;
   std::vector<double> share_;
+  VertexId heaviest_ = kNoVertex;  // of those with a share
 };
 
 /// How the stamps of a drag are spaced: the way in a sixtieth of a second, but between an eighth and a half

@@ -101,11 +101,12 @@ std::optional<Error> refusal(const char* what, double size, double depth) {
 Result<ToolPart> partOf(ToolOutline outline, const ToolDepth& depth) {
   if (!isSimple(outline)) return Error{"a tool's outline must not cross or touch itself"};
   if (doubledArea(outline) < 0.0) std::reverse(outline.begin(), outline.end());
-  ToolOutline inner = inset(outline, kWallPart * sizeOf(outline));
+  const double wall = kWallPart * sizeOf(outline);
+  ToolOutline inner = inset(outline, wall);
   if (!isSimple(inner) || !isInside(outline, inner)) {
     return Error{"a tool's outline is too narrow somewhere: there is no room for its walls"};
   }
-  return ToolPart{std::move(outline), {std::move(inner)}, depth};
+  return ToolPart{std::move(outline), {std::move(inner)}, depth, wall};
 }
 
 ToolOutline squareAt(double x, double y, double half) {

@@ -30,6 +30,7 @@ struct ToolPart {
   ToolOutline outer;
   std::vector<ToolOutline> inner;
   ToolDepth depth;
+  double wall = 0.0;  // [m] thickness, straight across, between the outer outline and the first inner one
 };
 
 /// One or several parts that do not touch each other. Immutable. The first inner outline lies `wall` inside

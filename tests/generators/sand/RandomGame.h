@@ -1,6 +1,7 @@
 // Stamps, slides and clean-up in random order, with random tools at random places.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -15,12 +16,15 @@ namespace teren {
 /// With more a game is over; the next one is on other ground.
 inline constexpr std::size_t kMostVertices = 2'500;
 
+/// A fifth of a cubic metre, sixfold [ticks steps^2], of games' boxes: what a few dozen stamps move.
+inline constexpr double kFirstMoved = 0.2 * 6.0 * kTicksPerMetre * 0x1p40;
+
 inline std::vector<ToolShape> toolbox() {
   const std::vector<ToolPoint> hook{{-0.04, -0.04}, {0.04, -0.04}, {0.04, 0.04},  {-0.04, 0.04},
                                     {-0.04, 0.02},  {0.02, 0.02},  {0.02, -0.02}, {-0.04, -0.02}};
   return {*ToolShape::disc(0.05, 0.1),     *ToolShape::disc(0.02, 0.03, 5), *ToolShape::square(0.1, 0.05),
           *ToolShape::rake(0.16, 0.04, 4), *ToolShape::wedge(0.08, 0.1),    *ToolShape::ball(0.1, 0.06),
-          *ToolShape::polygon(hook, 0.07)};
+          *ToolShape::polygon(hook, 0.07), *ToolShape::disc(0.3, 0.05)};
 }
 
 /// One game and its own account of the volume.
@@ -78,8 +82,9 @@ class RandomGame {
     if (!(surface.volume() + surface.owed() == all_)) return "volume is lost";
     if (const Result<void> sound = surface.validate(); !sound) return sound.error().message;
     const double drift = std::fabs(asDouble(surface.owed()));
-    if (surface.volumeMoved() > 0 && drift > 1e-9 * asDouble(surface.volumeMoved()))
+    if (drift > 1e-12 * std::max(asDouble(surface.volumeMoved()), kFirstMoved))
       return "the account has run up";
+    if (strayed_) return "a stamp has moved ground out of its reach";
     if (sandbox_.cleanUp().count().largestError > sandbox_.cleanUp().tolerance())
       return "clean-up has moved ground";
     return {};
@@ -103,9 +108,9 @@ class RandomGame {
     return settings;
   }
 
-  /// A place that may lie outside, at a height that may be in the air or deep down.
+  /// A place that may lie outside, or next to the border, at a height that may be in the air or deep down.
   void stamp(const ToolShape& tool) {
-    StampPlace place{1.1 * uniform(random_.next()) - 0.05, 1.1 * uniform(random_.next()) - 0.05,
+    StampPlace place{1.4 * uniform(random_.next()) - 0.2, 1.4 * uniform(random_.next()) - 0.2,
                      0.3 * uniform(random_.next()) - 0.1};
     if (random_.next() % 4 != 0) {
       const double x = uniformAroundZero(random_.next()), y = uniformAroundZero(random_.next());
@@ -113,13 +118,31 @@ class RandomGame {
       place.directionX = x / length;
       place.directionY = y / length;
     }
+    const double extent = (1.0 + StampSettings{}.bermWidth) * tool.reach() + sandbox_.surface().step();
+    std::vector<std::int64_t> before = heightsBeyond(place, extent);
     (void)sandbox_.stamp(tool, place);  // a refusal changes nothing, which fault() would notice
+    before.resize(sandbox_.surface().mesh().vertexSlots(), kNoHeight);
+    strayed_ = strayed_ || before != heightsBeyond(place, extent);
+  }
+  /// Of all vertices farther from a place than this [m].
+  std::vector<std::int64_t> heightsBeyond(const StampPlace& place, double distance) const {
+    const Triangulation& mesh = sandbox_.surface().mesh();
+    std::vector<std::int64_t> heights(mesh.vertexSlots(), kNoHeight);
+    for (VertexId v = 0; v < mesh.vertexSlots(); ++v) {
+      if (!mesh.isVertex(v)) continue;
+      const double x = mesh.frame().placeX(mesh.point(v)) - place.x;
+      const double y = mesh.frame().placeY(mesh.point(v)) - place.y;
+      if (x * x + y * y > distance * distance) heights[v] = sandbox_.surface().height(v);
+    }
+    return heights;
   }
 
+  static constexpr std::int64_t kNoHeight = 2 * kHighestTick;
   RandomSequence random_;
   Sandbox sandbox_;
   SixfoldVolume all_ = 0;
   double angle_ = kDryRepose;  // [degree] of repose
+  bool strayed_ = false;
 };
 
 }  // namespace teren

@@ -35,7 +35,7 @@ TEST(RandomPlay, NeverBreaksTheMeshNorLosesVolume) {
 
 TEST(RandomPlay, ComesToRestWithNoLooseFaceTooSteep) {
   const std::vector<ToolShape> tools = toolbox();
-  std::vector<std::uint64_t> seeds{276, 567, 781, 1030};  // clean-up and slides might go on for ever in these
+  std::vector<std::uint64_t> seeds{3923, 4985};  // where clean-up and division would go on long
   for (int seed = 1; seed <= operations() / 1'600; ++seed) seeds.push_back(static_cast<std::uint64_t>(seed));
   int most = 0;
   for (const std::uint64_t seed : seeds) {

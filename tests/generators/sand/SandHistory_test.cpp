@@ -162,12 +162,9 @@ TEST(SandHistory, DropsTheOldestActionsBeyondItsBytes) {
   EXPECT_LE(history.bytes(), 5 * each + 2 * image);
   EXPECT_GE(history.actions(), 3U);
   EXPECT_LE(history.actions(), 7U);
-  const std::size_t kept = history.actions();
-  for (std::size_t n = 0; n < kept; ++n) {
-    ASSERT_TRUE(history.undo(sand.sandbox()));
-    ASSERT_EQ(sand.bytes(), states[states.size() - 1 - n]);
-  }
-  EXPECT_FALSE(history.undo(sand.sandbox()));
+  std::size_t undone = 0;  // what is undone may take more bytes, so that an older action goes
+  for (; history.undo(sand.sandbox()); ++undone) ASSERT_EQ(sand.bytes(), states[states.size() - 1 - undone]);
+  EXPECT_GE(undone, 3U);
 
   Drags none(3'000);
   SandHistory tiny(100);

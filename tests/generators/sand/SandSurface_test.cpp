@@ -230,6 +230,21 @@ TEST(SandSurface, PutsCrossingsOnTheSurfaceInSlotsThatEqualPointsLeftFree) {
   EXPECT_TRUE(sound) << sound.error().message;
 }
 
+TEST(SandSurface, SaysWhenItHasNoRoomForMoreVertices) {
+  EXPECT_TRUE(SandSurface::hasRoom(1'440'000));
+  const Result<void> full = SandSurface::hasRoom(SandSurface::kMostVertices);
+  ASSERT_FALSE(full);
+  EXPECT_NE(full.error().message.find("264241152"), std::string::npos) << full.error().message;
+  EXPECT_LT(2 * SandSurface::kMostVertices, Link::outside().triangle()) << "ids of triangles";
+}
+
+TEST(SandSurface, CountsItselfAmongItsBytes) {
+  const SandSurface surface(boxOf(20, 0x1p-20), 0.0, 1.0);
+  constexpr std::size_t kLeast = 64;  // room in a new array
+  EXPECT_GE(surface.bytes() - surface.mesh().bytes(),
+            sizeof(SandSurface) - sizeof(Triangulation) + kLeast * sizeof(std::int64_t));
+}
+
 TEST(SandSurface, ListsEveryVertexAndTriangleThatChanged) {
   SandSurface surface = scatteredSand(100, 16, 0.1, ripples);
   RandomSequence random(17);

@@ -1,7 +1,9 @@
 #include "generators/sand/Stamper.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -192,20 +194,99 @@ TEST(Stamper, DividesItsOutlineWhereTheGroundBends) {
   EXPECT_GT(other.stamp(rough, large, {0.5, 0.5, 0.0})->contour, 20);
 }
 
+double heightAt(const SandSurface& surface, double x, double y) {
+  return *surface.mesh().heightAt(x, y);
+}
+
+TEST(Stamper, CutsToolsOffAtTheBorder) {
+  SandSurface surface = scatteredSand(3'000, 43, 5.0, level);
+  const SixfoldVolume all = surface.volume();
+  Stamper stamper({});
+  const Result<StampReport> side = stamper.stamp(surface, kRound, {0.01, 0.5, 0.0});
+  ASSERT_TRUE(side) << side.error().message;
+  EXPECT_NEAR(heightAt(surface, 0.0, 0.5), -0.1, 1e-9) << "the groove ends at the border";
+  EXPECT_NEAR(heightAt(surface, 0.02, 0.48), -0.1, 1e-9);
+  EXPECT_GE(heightAt(surface, 0.0, 0.55), 0.0);
+  const double disc = 12 * 0.5 * 0.04 * 0.04 * 0.5;
+  EXPECT_GT(side->displaced, 0.5 * disc * 0.1);
+  EXPECT_LT(side->displaced, 0.75 * disc * 0.1);
+  ASSERT_TRUE(stamper.stamp(surface, kRound, {1.0, 1.0, 0.0, 0.6, 0.8}));
+  EXPECT_NEAR(heightAt(surface, 1.0, 1.0), -0.1, 1e-9) << "a corner of the box is dug up, too";
+  EXPECT_TRUE(stamper.stamp(surface, *ToolShape::rake(0.2, 0.05, 3), {0.5, 0.98, 0.0, 1.0, 0.0}));
+  EXPECT_TRUE(surface.volume() + surface.owed() == all);
+  EXPECT_TRUE(surface.due() == 0);
+  const Result<void> sound = surface.validate();
+  EXPECT_TRUE(sound) << sound.error().message;
+}
+
+TEST(Stamper, PutsOutlinesThatRunNextToTheBorderOnIt) {
+  const ToolShape square = *ToolShape::square(0.08, 0.05);
+  const double wall = square.parts().front().wall;
+  for (int n = 0; n < 60; ++n) {
+    SandSurface surface = scatteredSand(500, 44, 5.0, level);
+    const SixfoldVolume all = surface.volume();
+    Stamper stamper({});
+    const Result<StampReport> report = stamper.stamp(surface, square, {0.031 + n * 0.0002, 0.5, 0.0});
+    ASSERT_TRUE(report) << report.error().message;
+    for (const std::span<const VertexId> outline : {stamper.rim(), stamper.inside()}) {
+      for (const VertexId v : outline) {
+        const double beside = surface.mesh().frame().placeX(surface.mesh().point(v));
+        ASSERT_TRUE(beside == 0.0 || beside > 0.49 * wall) << beside << " in " << n;
+      }
+    }
+    ASSERT_TRUE(surface.volume() + surface.owed() == all) << n;
+    const Result<void> sound = surface.validate();
+    ASSERT_TRUE(sound) << n << ": " << sound.error().message;
+  }
+}
+
+TEST(Stamper, HeapsUpInsideWhatIsPushedBeyondTheBorder) {
+  for (const double x : {1.01, 1.02, 1.03}) {
+    SandSurface surface = scatteredSand(3'000, 45, 5.0, level);
+    const SixfoldVolume all = surface.volume();
+    Stamper stamper({});
+    ASSERT_TRUE(stamper.stamp(surface, kRound, {x, 0.5, 0.0, 1.0, 0.0})) << x;
+    EXPECT_TRUE(surface.volume() + surface.owed() == all) << x;
+    EXPECT_TRUE(surface.due() == 0) << x;
+    double highest = 0.0;
+    for (VertexId v = 0; v < surface.mesh().vertexSlots(); ++v) {
+      if (surface.mesh().isVertex(v)) highest = std::max(highest, surface.mesh().height(v));
+    }
+    EXPECT_GT(highest, 0.0) << x;
+    EXPECT_LT(highest, 0.7 * kRound.depth()) << "a spike instead of a berm at " << x;
+  }
+}
+
+TEST(Stamper, MeasuresWallsStraightAcross) {
+  SandSurface surface = scatteredSand(100, 46, 5.0, level);
+  Stamper stamper({});
+  const double step = surface.step();
+  const auto triangle = [&](double wall) {  // its corners are twice as far apart as its walls are thick
+    return *ToolShape::disc(wall / (0.025 * std::sqrt(3.0)), 1e-5, 3);
+  };
+  EXPECT_NEAR(triangle(1.0).parts().front().wall, 1.0, 1e-9);
+  EXPECT_FALSE(stamper.stamp(surface, triangle(7.0 * step), {0.5, 0.5, 0.0}));
+  EXPECT_EQ(surface.mesh().vertexCount(), 100U);
+  EXPECT_TRUE(stamper.stamp(surface, triangle(9.0 * step), {0.5, 0.5, 0.0}));
+}
+
 TEST(Stamper, RefusesImpossiblePlacesAndChangesNothing) {
   SandSurface surface = scatteredSand(100, 40, 5.0, level);
   Stamper stamper({});
   const double nan = std::nan("");
-  for (const StampPlace& place : {StampPlace{0.01, 0.5, 0.0},
+  for (const StampPlace& place : {StampPlace{-0.1, 0.5, 0.0},
                                   {0.5, 2.0, 0.0},
                                   {nan, 0.5, 0.0},
                                   {0.5, 0.5, nan},
                                   {0.5, 0.5, 0.0, 1.0, 1.0},
-                                  {1e300, 0.5, 0.0}}) {
+                                  {1e300, -1e308, 0.0}}) {
     EXPECT_FALSE(stamper.stamp(surface, kRound, place));
   }
   EXPECT_FALSE(stamper.stamp(surface, *ToolShape::disc(2e-6, 1.0), {0.5, 0.5, 0.0}))
       << "smaller than the lattice";
+  EXPECT_FALSE(stamper.stamp(surface, *ToolShape::square(3.0, 0.1), {0.5, 0.5, 0.0})) << "covers all";
+  EXPECT_FALSE(stamper.stamp(surface, *ToolShape::square(1.05, 0.1), {0.5, 0.5, 0.0}))
+      << "covers all but for its walls";
   EXPECT_EQ(surface.mesh().vertexCount(), 100U);
   EXPECT_TRUE(surface.changedVertices().ids().empty());
 }
