@@ -48,15 +48,27 @@ Result<void> SandSurface::hasRoom(std::size_t vertices) {
                std::to_string(kMostVertices) + " to get more"};
 }
 
-std::int64_t SandSurface::weight(VertexId v) const noexcept {
+/// Calls visit(triangle) for all triangles at v and returns their weight.
+template <class Visitor>
+std::int64_t SandSurface::weigh(VertexId v, Visitor&& visit) const {
   const LatticePoint p = mesh_.point(v);
   std::int64_t sum = 0;
   mesh_.forEachCorner(v, [&](Link at) {
     const std::array<VertexId, 3>& corners = mesh_.corners(at.triangle());
     sum += orientation(p, mesh_.point(corners[following(at.side())]),
                        mesh_.point(corners[preceding(at.side())]));
+    visit(at.triangle());
   });
   return sum;
+}
+
+std::int64_t SandSurface::weight(VertexId v) const noexcept {
+  return weigh(v, [](TriangleId) {});
+}
+
+std::int64_t SandSurface::weight(VertexId v, std::vector<TriangleId>& star) const {
+  star.clear();
+  return weigh(v, [&](TriangleId t) { star.push_back(t); });
 }
 
 Face SandSurface::unweighedFace(TriangleId t) const noexcept {
@@ -235,7 +247,7 @@ void SandSurface::loosen(VertexId v, std::int64_t depth) noexcept {
   loose_[v] = std::max(loose_[v], depth);
 }
 
-void SandSurface::apply(TriangleId t, const Face& face, const FaceMove& move) {
+void SandSurface::apply(TriangleId t, const Face& face, const FaceMove& move, const Stars& stars) {
   const std::array<VertexId, 3> corners = mesh_.corners(t);
   ledger_.enter(volumeOf(face, move));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -244,7 +256,8 @@ void SandSurface::apply(TriangleId t, const Face& face, const FaceMove& move) {
     setHeight(corners[i], face[i].height + move[i]);
     loose_[corners[i]] += move[i];
     if (move[i] > 0) moved_ += static_cast<WideInteger>(face[i].weight) * move[i];
-    noteMoved(corners[i]);
+    changedVertices_.add(corners[i]);
+    for (const TriangleId at : stars[i]) changedTriangles_.add(at);
   }
 }
 

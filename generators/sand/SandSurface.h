@@ -2,6 +2,7 @@
 // volume.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -49,6 +50,8 @@ class SandSurface {
   std::int64_t solid(VertexId v) const noexcept { return height(v) - loose_[v]; }
   /// Twice the area of all triangles at v [steps^2].
   std::int64_t weight(VertexId v) const noexcept;
+  /// The same; these triangles replace what is in the list.
+  std::int64_t weight(VertexId v, std::vector<TriangleId>& star) const;
   /// The corners of a triangle without their weights, which are 0.
   Face unweighedFace(TriangleId t) const noexcept;
   /// Height [ticks] of the triangles at a lattice point of the box, rounded.
@@ -80,8 +83,10 @@ class SandSurface {
   void raise(VertexId v, std::int64_t ticks);
   /// Makes material loose down to this depth [ticks] below the surface.
   void loosen(VertexId v, std::int64_t depth) noexcept;
+  /// The triangles at each corner of a face.
+  using Stars = std::array<std::vector<TriangleId>, 3>;
   /// A slide: no corner may fall by more than its loose thickness.
-  void apply(TriangleId t, const Face& face, const FaceMove& move);
+  void apply(TriangleId t, const Face& face, const FaceMove& move, const Stars& stars);
 
   /// Pays what is due: all these vertices, different ones, rise by as many whole ticks as come nearest, the
   /// heaviest by what is left, and by a tick more where that lessens what is owed beside. So |owed| ends at
@@ -115,6 +120,8 @@ class SandSurface {
     std::int64_t height = 0;
   };
 
+  template <class Visitor>
+  std::int64_t weigh(VertexId v, Visitor&& visit) const;
   static std::int64_t ticksOf(double height) noexcept {
     return static_cast<std::int64_t>(height * kTicksPerMetre);
   }

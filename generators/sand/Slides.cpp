@@ -73,13 +73,14 @@ void Slides::look(SandSurface& surface, TriangleId t) {
   const auto bears = [](const FaceCorner& corner) { return corner.loose > kBareTicks; };
   if (std::none_of(face.begin(), face.end(), bears)) return;
   const std::array<VertexId, 3> corners = surface.mesh().corners(t);
-  for (std::size_t i = 0; i < 3; ++i) face[i].weight = surface.weight(corners[i]);
+  for (std::size_t i = 0; i < 3; ++i) face[i].weight = surface.weight(corners[i], stars_[i]);
   const auto move = slideFace(face, repose_, surface.step(), surface.ledger());
   if (!move || (slope > repose_.divide && divideEdges(surface, t, face))) return;
-  surface.apply(t, face, *move);
+  surface.apply(t, face, *move, stars_);
   ++count_.moves;
   for (std::size_t i = 0; i < 3; ++i) {
-    if ((*move)[i] != 0) addAround(surface, corners[i]);
+    if ((*move)[i] == 0) continue;
+    for (const TriangleId around : stars_[i]) add(around);
   }
 }
 
@@ -121,7 +122,8 @@ bool Slides::divideEdgesAt(SandSurface& surface, VertexId v) {
 
 std::size_t Slides::bytes() const noexcept {
   return sizeof(*this) + waiting_.bytes() + (now_.capacity() + next_.capacity()) * sizeof(TriangleId) +
-         far_.capacity() * sizeof(VertexId);
+         far_.capacity() * sizeof(VertexId) +
+         (stars_[0].capacity() + stars_[1].capacity() + stars_[2].capacity()) * sizeof(TriangleId);
 }
 
 double steepestLooseSlope(const SandSurface& surface) {

@@ -74,6 +74,7 @@ class Slides {
   std::size_t position_ = 0;
   std::vector<TriangleId> next_;  // the next sweep
   std::vector<VertexId> far_;     // ends of edges to be divided
+  SandSurface::Stars stars_;      // of the face at hand
 };
 
 /// The steepest loose face: its slope as a tangent, 0 where there is none. O(n).

@@ -38,11 +38,12 @@ inline void runUpADebt(SandSurface& surface, std::int64_t ticks) {
   const TriangleId t = surface.mesh().triangleAt(0);
   Face face = surface.unweighedFace(t);
   FaceMove move{};
+  SandSurface::Stars stars;
   for (std::size_t i = 0; i < 3; ++i) {
-    face[i].weight = surface.weight(surface.mesh().corners(t)[i]);
+    face[i].weight = surface.weight(surface.mesh().corners(t)[i], stars[i]);
     if (surface.mesh().corners(t)[i] == 0) move[i] = ticks;
   }
-  surface.apply(t, face, move);
+  surface.apply(t, face, move, stars);
 }
 
 /// A cone twice as steep as dry sand lies, half a metre wide.
