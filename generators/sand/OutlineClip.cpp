@@ -82,7 +82,7 @@ std::vector<LatticeChain> clippedOutline(const LatticeFrame& frame, std::span<co
   std::size_t start = 0;
   while (start < all.size() && all.isInside(start)) ++start;
   std::vector<LatticeChain> chains;
-  if (start == all.size()) {
+  if (start == all.size() && start > 0) {
     chains.push_back({{}, true});
     for (std::size_t i = 0; i < all.size(); ++i) append(chains.back(), all.at(i, 0.0));
     return chains;

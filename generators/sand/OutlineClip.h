@@ -17,7 +17,7 @@ struct LatticeChain {
 
 /// The parts of a closed outline, or of a single point, that lie in the box. Its points are in the frame's
 /// coordinates [m]; those inside but within `margin` [m] of a border are put on it, so that no part runs
-/// along the border nearer than that. Nothing where it lies wholly outside, or is no number.
+/// along the border nearer than that. Nothing where it lies wholly outside. Finite numbers only.
 std::vector<LatticeChain> clippedOutline(const LatticeFrame& frame, std::span<const ToolPoint> outline,
                                          double margin);
 

@@ -21,8 +21,8 @@ namespace teren {
 /// Every vertex has a height, a whole number of ticks, and of that a thickness of loose material >= 0; what
 /// is below is solid. Heights are those of the triangulation, whose doubles hold ticks exactly.
 ///
-/// volume() + owed() never changes but by add() and take(): every operation enters what it did to the volume
-/// of the piecewise linear surface, flips and crossings included, in exact integers. It does not pay at once;
+/// volume() + owed() never changes: every operation enters what it did to the volume of the piecewise linear
+/// surface, flips and crossings included, in exact integers. It does not pay at once;
 /// settle() does, from vertices of the caller's choice. Solid and loose are interpolated where a vertex
 /// comes; which of the two a given volume is, is not accounted for.
 ///
