@@ -243,8 +243,10 @@ void SandSurface::raise(VertexId v, std::int64_t ticks) {
   noteMoved(v);
 }
 
-void SandSurface::loosen(VertexId v, std::int64_t depth) noexcept {
-  loose_[v] = std::max(loose_[v], depth);
+void SandSurface::loosen(VertexId v, std::int64_t depth) {
+  if (depth <= loose_[v]) return;
+  loose_[v] = depth;
+  noteMoved(v);
 }
 
 void SandSurface::apply(TriangleId t, const Face& face, const FaceMove& move, const Stars& stars) {

@@ -82,7 +82,7 @@ class SandSurface {
   /// as that lasts, then solid.
   void raise(VertexId v, std::int64_t ticks);
   /// Makes material loose down to this depth [ticks] below the surface.
-  void loosen(VertexId v, std::int64_t depth) noexcept;
+  void loosen(VertexId v, std::int64_t depth);
   /// The triangles at each corner of a face.
   using Stars = std::array<std::vector<TriangleId>, 3>;
   /// A slide: no corner may fall by more than its loose thickness.
@@ -99,8 +99,8 @@ class SandSurface {
   /// Their corners that remain.
   std::span<const VertexId> lastTouched() const noexcept { return touched_; }
 
-  /// Vertices that rose, fell, came or went, and triangles that came, went, lie at such vertices, or of which
-  /// a side became or ceased to be constrained, since clearChanges(). loosen() is not told.
+  /// Vertices that rose, fell, came, went or became loose, and triangles that came, went, lie at such
+  /// vertices, or of which a side became or ceased to be constrained, since clearChanges().
   const ChangeList& changedVertices() const noexcept { return changedVertices_; }
   const ChangeList& changedTriangles() const noexcept { return changedTriangles_; }
   void clearChanges() noexcept;

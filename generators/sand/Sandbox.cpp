@@ -48,7 +48,6 @@ Result<StampReport> Sandbox::stamp(const ToolShape& tool, const StampPlace& plac
     keptId_ = id;
     push();
   }
-  for (const VertexId v : stamper_.inside()) changedVertices_.add(v);  // may have been loosened, rims as well
   collectChanges(Phase::stamping);
   return report;
 }

@@ -245,6 +245,18 @@ TEST(SandSurface, CountsItselfAmongItsBytes) {
             sizeof(SandSurface) - sizeof(Triangulation) + kLeast * sizeof(std::int64_t));
 }
 
+TEST(SandSurface, TellsOfWhatBecameLoose) {
+  SandSurface surface = scatteredSand(100, 19, 0.1, ripples);
+  surface.clearChanges();
+  surface.loosen(50, surface.loose(50));
+  EXPECT_TRUE(surface.changedVertices().ids().empty()) << "it was so before";
+  surface.loosen(50, surface.loose(50) + 1);
+  EXPECT_TRUE(surface.changedVertices().contains(50));
+  surface.mesh().forEachCorner(50, [&](Link at) {
+    EXPECT_TRUE(surface.changedTriangles().contains(at.triangle())) << "it may slide now";
+  });
+}
+
 TEST(SandSurface, ListsEveryVertexAndTriangleThatChanged) {
   SandSurface surface = scatteredSand(100, 16, 0.1, ripples);
   RandomSequence random(17);
