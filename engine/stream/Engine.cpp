@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "teren/Parameter.h"
 #include "teren/PixelError.h"
 
 #include "stream/ObjectSet.h"
@@ -15,6 +16,7 @@
 namespace teren {
 
 double ViewSettings::reach(const World& world) const noexcept {
+  if (detail) return detail->distance;
   return radius * world.pitch() * static_cast<double>(std::int64_t{1} << level);
 }
 
@@ -25,10 +27,40 @@ int ViewSettings::radiusFor(double distance, int level, const World& world) noex
 
 namespace {
 
+Error outside(const std::string& what, const std::string& value, const std::string& expected) {
+  return Error{what + " is " + value + ", expected " + expected};
+}
+
+Error outside(const std::string& what, auto value, const std::string& expected) {
+  return outside(what, std::to_string(value), expected);
+}
+
+/// NaN is in no range.
+Result<void> check(const DetailSettings& detail) {
+  const auto isIn = [](double value, double least, double most) { return value >= least && value <= most; };
+  if (!isIn(detail.pixelError, DetailSettings::kLeastError, DetailSettings::kMostError)) {
+    return outside("the view's pixel error", numberText(detail.pixelError),
+                   numberText(DetailSettings::kLeastError) + " to " + numberText(DetailSettings::kMostError) +
+                       " pixels");
+  }
+  if (!(detail.distance > 0.0 && detail.distance <= DetailSettings::kMostDistance)) {
+    return outside("the view's distance", numberText(detail.distance),
+                   "more than 0 and at most " + numberText(DetailSettings::kMostDistance) + " m");
+  }
+  if (!isIn(detail.lines, 1.0, DetailSettings::kMostLines)) {
+    return outside("the picture's height", numberText(detail.lines),
+                   "1 to " + numberText(DetailSettings::kMostLines) + " pixels");
+  }
+  if (!isIn(detail.fieldOfView, 0.01, 3.0)) {
+    return outside("the field of view", numberText(detail.fieldOfView), "0.01 to 3 radians");
+  }
+  return {};
+}
+
 Result<void> check(const EngineOptions& options, const World& world) {
-  const auto outside = [](const std::string& what, auto value, const std::string& expected) {
-    return Error{what + " is " + std::to_string(value) + ", expected " + expected};
-  };
+  if (options.view.detail) {
+    if (Result<void> checked = check(*options.view.detail); !checked) return checked;
+  }
   if (options.view.level < 0 || options.view.level > world.topLevel()) {
     return outside("the view's level", options.view.level,
                    "0 to " + std::to_string(world.topLevel()) + ", the world's top level");
@@ -100,6 +132,7 @@ std::shared_ptr<const SceneQuery> Engine::State::sceneQuery() const {
 }
 
 std::optional<double> Engine::State::drawnHeight(const Position& position) const {
+  if (!position.valid()) return std::nullopt;
   DrawnPoint point;
   sceneQuery()->points({&position, 1}, {&point, 1});
   return point.there ? std::optional(point.height) : std::nullopt;
@@ -134,6 +167,17 @@ const World& Engine::world() const noexcept {
 }
 const EngineOptions& Engine::options() const noexcept {
   return state_->options;
+}
+Result<void> Engine::setDetail(const DetailSettings& detail) {
+  State& state = *state_;
+  if (!state.options.view.detail) return Error{"the view is of one level, so it has no pixel error to set"};
+  if (state.options.view.detail == detail) return {};
+  EngineOptions options = state.options;
+  options.view.detail = detail;
+  if (Result<void> checked = check(options, *state.world); !checked) return checked;
+  state.options = options;
+  state.streamer.setDetail(detail);
+  return {};
 }
 void Engine::setRendererBytes(std::size_t bytes) noexcept {
   state_->streamer.setRendererBytes(bytes);
@@ -221,6 +265,8 @@ EngineFigures Engine::figures() const noexcept {
   figures.bytes = streamer.bytes();
   figures.peakBytes = std::max(streamer.peakBytes(), figures.bytes);
   figures.radius = streamer.plan().radius;
+  figures.pixelError = streamer.pixelError();
+  figures.nodesAtLevel = streamer.nodes().drawnAtLevel();
   figures.pending = streamer.missing();
   figures.unfinishedTasks = streamer.unfinished();
   figures.slices = streamer.meter().slices();

@@ -13,6 +13,8 @@ struct MemoryNeeds {
   std::size_t leastMaps = 0;  ///< base maps below which every node would have to make its own again
   std::size_t mostMaps = 0;   ///< base maps beyond which more are of no use; >= leastMaps
   int radius = 0;             ///< of the view asked for, >= 0
+
+  friend bool operator==(const MemoryNeeds&, const MemoryNeeds&) = default;
 };
 
 struct MemoryPlan {

@@ -201,6 +201,12 @@ bool NodeStore::apply(const DrawnChange& change, std::span<const BuiltPiece> pie
   for (const NodeKey& key : change.add) *drawn_.find(key, LookUp::create) = heights(key);
   drawnCount_ += change.add.size();
   drawnCount_ -= change.remove.size();
+  for (const NodeKey& key : change.remove) --drawnAtLevel_[static_cast<std::size_t>(key.level)];
+  for (const NodeKey& key : change.add) {
+    const auto level = static_cast<std::size_t>(key.level);
+    if (drawnAtLevel_.size() <= level) drawnAtLevel_.resize(level + 1);
+    ++drawnAtLevel_[level];
+  }
   for (const BuiltPiece& built : pieces) {
     const std::uint64_t id = nextId_++;
     built.mesh->id = id;
@@ -276,6 +282,16 @@ std::size_t NodeStore::piecesBytes() const noexcept {
   return pieceBytes(Piece::interior, intervals_) + pieceBytes(Piece::eastSeam, intervals_) +
          pieceBytes(Piece::northSeam, intervals_) + pieceBytes(Piece::cornerPiece, intervals_) +
          kTreeBytesPerNode + 4 * kBytesPerPiece;
+}
+
+std::size_t NodeStore::borderBytes() const {
+  std::vector<NodeKey> around;
+  for (std::int64_t j = -1; j <= 2; ++j) {
+    for (std::int64_t i = -1; i <= 2; ++i) {
+      if (i == -1 || i == 2 || j == -1 || j == 2) around.push_back({0, i, j});
+    }
+  }
+  return BorderPlan({1, 0, 0}, around, intervals_).bytes() + kBytesPerPiece;
 }
 
 }  // namespace teren

@@ -86,6 +86,11 @@ class NodeStore {
   /// The other drawn nodes whose squares touch that of `key` and do not lie in it, by level and key.
   std::vector<NodeKey> drawnAround(const NodeKey& key) const;
   std::size_t drawnCount() const noexcept { return drawnCount_; }
+  /// Calls visit(key) for every drawn node, in an order that depends on the set alone.
+  template <class Visit>
+  void forEachDrawn(Visit&& visit) const {
+    drawn_.forEach([&](const NodeKey& key, const NodeHeights&) { visit(key); });
+  }
 
   /// What must be built before a change: what it adds must be held and not drawn, what it removes drawn.
   /// Costs about 2 us for each node it names and each that touches one.
@@ -113,6 +118,10 @@ class NodeStore {
   std::size_t drawnBytes() const noexcept { return heldBytes() + piecesBytes(); }
   /// Of its pieces: an interior, two seams, a corner piece.
   std::size_t piecesBytes() const noexcept;
+  /// Of a border towards nodes a level finer on all sides.
+  std::size_t borderBytes() const;
+  /// How many nodes of each level are drawn, from level 0 on.
+  const std::vector<std::size_t>& drawnAtLevel() const noexcept { return drawnAtLevel_; }
 
  private:
   struct Drawn {
@@ -138,6 +147,7 @@ class NodeStore {
   std::size_t heightBytes_ = 0, meshBytes_ = 0, bookkeepingBytes_ = 0;
   PatchTree<NodeHeights> drawn_;
   std::size_t drawnCount_ = 0;
+  std::vector<std::size_t> drawnAtLevel_;
   std::unordered_map<PieceName, Drawn, PieceNameHash> pieces_;
   std::map<std::uint64_t, std::shared_ptr<const Mesh>> meshes_;  // by id
   GridIndices indices_;

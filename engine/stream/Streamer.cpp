@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "patch/ErrorCalibration.h"
 #include "patch/NodeTask.h"
+#include "stream/Refinement.h"
 #include "stream/View.h"
 #include "world/NodeErrors.h"
 
@@ -17,15 +19,39 @@ constexpr std::size_t kMostMapBytes = std::size_t{32} << 20;
 constexpr std::size_t kLeastMapBytes = std::size_t{1} << 20;
 constexpr std::size_t kSlack = std::size_t{256} << 10;  // what bytes() estimates, and what it leaves out
 constexpr std::size_t kMostGroundBuilds = 8;
-constexpr std::size_t kJoinBatch = 16;  // with workers; without, nodes are joined one by one
+constexpr std::size_t kJoinBatch = 16;   // with workers; without, nodes are joined one by one
+constexpr std::size_t kRefinements = 4;  // of four nodes each, likewise
+
+// Detail by error:
+constexpr double kChoiceStep = 1.0 / 16.0;  // [pitches] an eye moves before the next choice ...
+constexpr double kFewNodes = 500.0;         // ... among so many nodes or fewer; farther where it costs more
+constexpr double kToleranceStep = 1.25, kMostTolerance = 1e4;
+// The rest of the cap is for what stays drawn until it is replaced. Refined again only where it will fit for
+// a while.
+constexpr double kShareOfCap = 0.7, kShareToRefine = 0.6;
 
 // Ground under objects goes before everything else, joining nodes before making more of them.
 constexpr std::int64_t kGroundUrgency = -(std::int64_t{1} << 40);
 constexpr std::int64_t kJoinUrgency = -1;
 constexpr std::int64_t kCalibrationUrgency = std::int64_t{1} << 40;  // after all that is wanted
 
-std::size_t buildBytes(const World& world, int viewLevel) {
-  return std::max(NodeTask::mostBytes(world, 0), NodeTask::mostBytes(world, viewLevel));
+std::size_t buildBytes(const World& world, const ViewSettings& view) {
+  const std::size_t ground = NodeTask::mostBytes(world, 0);
+  if (!view.detail) return std::max(ground, NodeTask::mostBytes(world, view.level));
+  std::size_t most = ground;
+  for (int level = 1;
+       level <= Selection::rootLevelFor(view.detail->distance, world.pitch(), world.topLevel()); ++level) {
+    most = std::max(most, NodeTask::mostBytes(world, level));
+  }
+  return most;
+}
+
+/// [m] By level, as far as they are known by now.
+std::vector<double> nodeErrors(const World& world) {
+  std::vector<double> errors;
+  for (int level = 0; level <= world.topLevel(); ++level)
+    errors.push_back(world.nodeErrors().estimate(level));
+  return errors;
 }
 
 bool errorsAreKnown(const World& world) {
@@ -54,45 +80,121 @@ std::size_t joinBatch(int workers) {
 Streamer::Streamer(const World& world, const EngineOptions& options)
     : world_(world),
       options_(options),
-      buildBytes_(buildBytes(world, options.view.level)),
       calibrationBytes_(ErrorCalibration::mostBytes(world)),
       maps_(kMostMapBytes),
       nodes_(world.spacing(0), world.intervals()),
       runner_(options.workers) {
+  sizeBuilds();
+  if (!options.view.detail) return;
+  constexpr double kDeviations = 3.0;
+  const double range = kDeviations * world.deviation();
+  selection_.emplace(
+      Selection::Ground{world.pitch(), world.mean() - range, world.mean() + range, nodeErrors(world)});
+}
+
+void Streamer::sizeBuilds() {
+  buildBytes_ = buildBytes(world_, options_.view);
   // Tasks in flight may take an eighth of the cap, but there are two at least.
-  const std::size_t most = std::max<std::size_t>(2, options.capBytes / 8 / buildBytes_);
+  const std::size_t most = std::max<std::size_t>(2, options_.capBytes / 8 / buildBytes_);
   mostGroundBuilds_ = std::min(kMostGroundBuilds, most / 2);
-  mostViewBuilds_ = std::clamp<std::size_t>(2 * static_cast<std::size_t>(options.workers), 1, most / 2);
+  mostViewBuilds_ = std::clamp<std::size_t>(2 * static_cast<std::size_t>(options_.workers), 1, most / 2);
+}
+
+void Streamer::setDetail(const DetailSettings& detail) {
+  assert(options_.view.detail);
+  options_.view.detail = detail;
+  sizeBuilds();
 }
 
 std::size_t Streamer::leastCap(const World& world, const EngineOptions& options) {
   const NodeStore nodes(world.spacing(0), world.intervals());
-  const std::size_t build = buildBytes(world, options.view.level);
+  const std::size_t build = buildBytes(world, options.view);
   const std::size_t drawn = nodes.drawnBytes() + nodes.piecesBytes();
-  constexpr std::size_t kGroundNodes = 9, kViewNodes = 9;
+  constexpr std::size_t kGroundNodes = 9, kUniformNodes = 9;
+  constexpr std::size_t kRoots =
+      121;  // at most so many lie within their distance, which is less than four of their sides
+  const std::size_t view = options.view.detail ? kRoots : kUniformNodes + joinBatch(options.workers);
   return kSlack + std::max(kLeastMapBytes, build) + 2 * build + kGroundNodes * nodes.heldBytes() +
-         (kViewNodes + joinBatch(options.workers)) * drawn;
+         view * drawn;
 }
 
 // ---- Choosing
 
 void Streamer::choose(std::span<const Motion> motions, std::size_t active) {
   if (motions.empty()) return;
-  const Position eye = motions[active].position;
-  const NodeKey centre = nodeAt(eye, options_.view.level);
   const std::vector<NodeKey> ground = chooseGround(motions);
-  const MemoryPlan next = plan(ground.size());
-  if (centre_ == centre && plan_ == next &&
-      std::equal(ground.begin(), ground.end(), wanted_.begin(),
-                 wanted_.begin() + static_cast<std::ptrdiff_t>(groundCount_))) {
-    return;
+  if (options_.view.detail) {
+    chooseDetail(ground, motions[active]);
+  } else {
+    chooseUniform(ground, motions[active].position);
   }
+}
+
+bool Streamer::isGroundAsBefore(const std::vector<NodeKey>& ground) const {
+  return std::equal(ground.begin(), ground.end(), wanted_.begin(),
+                    wanted_.begin() + static_cast<std::ptrdiff_t>(groundCount_));
+}
+
+void Streamer::chooseUniform(const std::vector<NodeKey>& ground, const Position& eye) {
+  const NodeKey centre = nodeAt(eye, options_.view.level);
+  const MemoryPlan next = planMemory(needs(ground.size()));
+  if (centre_ == centre && plan_ == next && isGroundAsBefore(ground)) return;
   centre_ = centre;
   plan_ = next;
   maps_.setCapacity(plan_.mapBytes);
-  rank(ground, eye);
+  rank(ground, viewNodes(eye, {options_.view.level, plan_.radius}, world_));
   planDrops();
   cancelUnwanted();
+}
+
+void Streamer::chooseDetail(const std::vector<NodeKey>& ground, const Motion& eye) {
+  const Viewer viewer{eye.position, eye.height, *options_.view.detail};
+  const MemoryNeeds now = needs(ground.size());
+  std::vector<double> errors = nodeErrors(world_);
+  if (viewer_ && viewer_->detail == viewer.detail && needs_ == now && selection_->errors() == errors &&
+      isGroundAsBefore(ground)) {
+    const Offset way = offset(viewer_->position, viewer.position, world_.pitch());
+    const double up = viewer.height - viewer_->height;
+    const double step =
+        kChoiceStep * world_.pitch() * std::max(1.0, static_cast<double>(wanted_.size()) / kFewNodes);
+    if (way.east * way.east + way.north * way.north + up * up < step * step) return;
+  }
+  viewer_ = viewer;
+  needs_ = now;
+  selection_->setErrors(std::move(errors));
+  const auto choose = [&](double tolerance) {
+    selection_->choose({&viewer, 1}, tolerance);
+    tolerance_ = tolerance;
+  };
+  const double before = tolerance_;
+  choose(std::max(before / kToleranceStep, 1.0));
+  if (!fits(now, before > 1.0 ? kShareToRefine : kShareOfCap)) choose(before);
+  while (!fits(now, kShareOfCap) && tolerance_ < kMostTolerance) choose(tolerance_ * kToleranceStep);
+  selection_->keep();
+  plan_.fits = fits(now, 1.0);
+  const std::size_t used = now.fixed + detailBytes();
+  plan_.mapBytes = std::clamp(now.cap - std::min(now.cap, used), now.leastMaps, now.mostMaps);
+  maps_.setCapacity(plan_.mapBytes);
+  std::vector<NodeKey> view;
+  view.reserve(selection_->nodes().size());
+  for (const SelectedNode& node : selection_->nodes()) view.push_back(node.key);
+  rank(ground, view);
+  planDrops();
+  cancelUnwanted();
+  mayRefine_ = true;
+}
+
+std::size_t Streamer::detailBytes() const noexcept {
+  // About half of what a border on all sides towards finer nodes takes, and as much in the renderer.
+  const std::size_t border = 2 * nodes_.borderBytes() / 2;
+  const std::size_t leaves = selection_->leaves(), above = selection_->nodes().size() - leaves;
+  return leaves * (nodes_.drawnBytes() + nodes_.piecesBytes() + border) + above * nodes_.heldBytes();
+}
+
+bool Streamer::fits(const MemoryNeeds& needs, double share) const noexcept {
+  const std::size_t taken = needs.fixed + needs.leastMaps;
+  if (taken >= needs.cap) return false;
+  return static_cast<double>(detailBytes()) <= share * static_cast<double>(needs.cap - taken);
 }
 
 std::vector<NodeKey> Streamer::chooseGround(std::span<const Motion> motions) const {
@@ -120,7 +222,7 @@ std::vector<NodeKey> Streamer::chooseGround(std::span<const Motion> motions) con
   return ground;
 }
 
-MemoryPlan Streamer::plan(std::size_t groundNodes) const {
+MemoryNeeds Streamer::needs(std::size_t groundNodes) const {
   MemoryNeeds needs;
   needs.cap = options_.capBytes;
   needs.radius = options_.view.radius;
@@ -130,31 +232,36 @@ MemoryPlan Streamer::plan(std::size_t groundNodes) const {
                 joinBatch(options_.workers) * 2 * nodes_.piecesBytes();
   needs.leastMaps = std::max(kLeastMapBytes, buildBytes_);
   needs.mostMaps = std::max(kMostMapBytes, needs.leastMaps);
-  return planMemory(needs);
+  return needs;
 }
 
-void Streamer::rank(const std::vector<NodeKey>& ground, const Position& eye) {
+void Streamer::rank(const std::vector<NodeKey>& ground, std::span<const NodeKey> view) {
   wanted_ = ground;
   groundCount_ = ground.size();
   ranks_.clear();
   for (std::size_t k = 0; k < wanted_.size(); ++k) ranks_.emplace(wanted_[k], k);
-  for (const NodeKey& key : viewNodes(eye, {options_.view.level, plan_.radius}, world_)) {
+  for (const NodeKey& key : view) {
     if (ranks_.emplace(key, wanted_.size()).second) wanted_.push_back(key);
   }
   nextWanted_ = 0;
-  missing_ = 0;
   toJoin_.clear();
+  countMissing();
+  if (selection_) return;
   for (std::size_t k = 0; k < wanted_.size(); ++k) {
-    if (isThere(wanted_[k])) continue;
-    ++missing_;
-    if (nodes_.heights(wanted_[k]) && !joining_.contains(wanted_[k])) toJoin_.insert(k);
+    if (!isThere(wanted_[k]) && nodes_.heights(wanted_[k]) && !joining_.contains(wanted_[k]))
+      toJoin_.insert(k);
   }
+}
+
+void Streamer::countMissing() {
+  missing_ = static_cast<std::size_t>(
+      std::count_if(wanted_.begin(), wanted_.end(), [&](const NodeKey& key) { return !isThere(key); }));
 }
 
 void Streamer::planDrops() {
   drops_.clear();
   for (const NodeKey& key : nodes_.nodes()) {
-    if (isDrawable(key)) continue;
+    if (selection_ ? nodes_.isDrawn(key) : isDrawable(key)) continue;  // with detail, until it is replaced
     if (!ranks_.contains(key) || nodes_.isDrawn(key)) drops_.push_back(key);
   }
 }
@@ -171,7 +278,8 @@ void Streamer::cancelUnwanted() {
   }
 }
 
-bool Streamer::isDrawable(const NodeKey& key) const noexcept {
+bool Streamer::isDrawable(const NodeKey& key) const {
+  if (selection_) return selection_->isLeaf(key);
   return centre_ && mayStay(key, *centre_, {options_.view.level, plan_.radius}, plan_.margin);
 }
 
@@ -183,6 +291,7 @@ bool Streamer::isThere(const NodeKey& key) const {
 
 void Streamer::work(Slice::Clock::time_point deadline) {
   meter_.beginFrame(deadline);
+  mayRefine_ = mayRefine_ || std::exchange(lacksRoom_, false);
   while (meter_.mayStart()) {
     collect();
     if (!meter_.step(housekeeping_)) continue;
@@ -213,6 +322,7 @@ bool Streamer::tidyOne() {
 
 void Streamer::drop(const NodeKey& key) {
   if (nodes_.isDrawn(key)) {
+    if (selection_) return;  // drawn meanwhile
     [[maybe_unused]] const bool gone = nodes_.apply({{key}, {}}, {});
     assert(gone);  // of one level, so that no other node has a border towards it
   }
@@ -243,14 +353,19 @@ void Streamer::integrate(TaskRunner::Finished finished) {
   if (build->second.isGround) --groundBuilds_;
   builds_.erase(build);
   nodes_.insert(key, std::make_shared<const HeightMap>(task.takeHeights()));
-  if (isDrawable(key)) {
-    toJoin_.insert(ranks_.at(key));
-  } else {
+  mayRefine_ = selection_.has_value();
+  if (!isDrawable(key)) {
     --missing_;
+  } else if (!selection_) {
+    toJoin_.insert(ranks_.at(key));
   }
 }
 
 void Streamer::integrateJoin(const JoinTask& task) {
+  if (selection_) {
+    change(task.change(), task.pieces());
+    return;
+  }
   const std::vector<NodeKey>& nodes = task.change().add;
   const auto isWanted = [&](const NodeKey& key) { return ranks_.contains(key) && isDrawable(key); };
   if (std::all_of(nodes.begin(), nodes.end(), isWanted) && nodes_.apply(task.change(), task.pieces())) {
@@ -263,8 +378,37 @@ void Streamer::integrateJoin(const JoinTask& task) {
   peakMeshBytes_ = std::max(peakMeshBytes_, nodes_.meshBytes());
 }
 
+void Streamer::change(const DrawnChange& change, std::span<const BuiltPiece> pieces) {
+  mayRefine_ = true;  // further, or once more
+  if (!nodes_.apply(change, pieces)) return;
+  for (const NodeKey& key : change.remove) {
+    if (!ranks_.contains(key)) drops_.push_back(key);
+  }
+  countMissing();
+  peakMeshBytes_ = std::max(peakMeshBytes_, nodes_.meshBytes());
+}
+
+bool Streamer::startRefining() {
+  if (!mayRefine_) return false;
+  mayRefine_ = false;
+  DrawnChange next = nextChange(nodes_, *selection_, runner_.workers() > 0 ? kRefinements : 1);
+  if (next.remove.empty() && next.add.empty()) return false;
+  auto task = std::make_unique<JoinTask>(nodes_, std::move(next));
+  if (task->pieces().empty()) {
+    change(task->change(), {});
+    return true;
+  }
+  lacksRoom_ = !hasRoomFor(2 * task->bytes());
+  if (lacksRoom_) return false;
+  joinBytes_ = task->bytes();
+  join_ = runner_.submit(std::move(task), kJoinUrgency);
+  return true;
+}
+
 bool Streamer::startJoin() {
-  if (join_ != 0 || toJoin_.empty()) return false;
+  if (join_ != 0) return false;
+  if (selection_) return startRefining();
+  if (toJoin_.empty()) return false;
   const std::size_t count = std::min(joinBatch(options_.workers), toJoin_.size());
   const std::size_t bytes = count * nodes_.piecesBytes();
   if (!hasRoomFor(2 * bytes)) return false;
@@ -312,10 +456,10 @@ bool Streamer::startCalibration() {
 }
 
 bool Streamer::isSettled() const {
-  if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty()) return false;
+  if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty() || mayRefine_) return false;
   if (missing_ == 0) return true;
   // A calibration under way gives its room back.
-  return calibration_ == 0 && !hasRoomFor(std::max(buildBytes_, 2 * nodes_.piecesBytes()));
+  return calibration_ == 0 && (lacksRoom_ || !hasRoomFor(std::max(buildBytes_, 2 * nodes_.piecesBytes())));
 }
 
 std::size_t Streamer::bytes() const {

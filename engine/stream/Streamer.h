@@ -20,6 +20,7 @@
 #include "stream/JoinTask.h"
 #include "stream/MemoryPlan.h"
 #include "stream/NodeStore.h"
+#include "stream/Selection.h"
 #include "world/BaseMap.h"
 
 namespace teren {
@@ -29,10 +30,13 @@ class ErrorCalibration;
 /// One thread calls it; with workers, nodes and pieces are made on theirs, and the caller only hands out
 /// tasks, takes what is finished and frees. All of the caller's work is done in slices (law 4).
 ///
-/// Under the cap (law 6) the view's radius and the room for base maps are planned from what a node costs
-/// (MemoryPlan), as many bytes again as its meshes have set aside for the renderer's copy of them, and no
-/// task begins unless there is room for what it makes. So the cap holds at every moment, unless a renderer
-/// takes more than that (then the view shrinks at the next choice).
+/// With detail by error, what is wanted is the cut of a Selection and everything above it, and the drawn set
+/// follows by the steps of nextChange: coarse land first, and no hole from then on.
+///
+/// Under the cap (law 6) the view's radius, or the pixel error, and the room for base maps are planned from
+/// what a node costs (MemoryPlan), as many bytes again as its meshes have set aside for the renderer's copy
+/// of them, and no task begins unless there is room for what it makes. So the cap holds at every moment,
+/// unless a renderer takes more than that (then the view shrinks at the next choice).
 class Streamer {
  public:
   Streamer(const World& world, const EngineOptions& options);
@@ -40,7 +44,8 @@ class Streamer {
   /// What the cap must be at least for such a world and view: ground, one task in flight, a view of radius 1.
   static std::size_t leastCap(const World& world, const EngineOptions& options);
 
-  /// Chooses what is wanted around these objects. Cheap unless one has come to another node.
+  /// Chooses what is wanted around these objects. Cheap unless one has come to another node, or with detail
+  /// by error some metres farther.
   void choose(std::span<const Motion> motions, std::size_t active);
   /// Works until the deadline or until there is nothing to do (here, or yet).
   void work(Slice::Clock::time_point deadline);
@@ -49,9 +54,16 @@ class Streamer {
   /// Nothing is missing, or nothing more can be done under the cap; and nothing is left to free.
   bool isSettled() const;
 
+  /// The view of detail by error; there must be one already.
+  void setDetail(const DetailSettings& detail);
+
   const NodeStore& nodes() const noexcept { return nodes_; }
   const SliceMeter& meter() const noexcept { return meter_; }
   const MemoryPlan& plan() const noexcept { return plan_; }
+  /// [px] Aimed at; 0 in a uniform view.
+  double pixelError() const noexcept {
+    return options_.view.detail ? tolerance_ * options_.view.detail->pixelError : 0.0;
+  }
   std::size_t wanted() const noexcept { return wanted_.size(); }
   std::size_t missing() const noexcept { return missing_; }        ///< of what is wanted
   std::size_t unfinished() const { return runner_.unfinished(); }  ///< tasks
@@ -74,13 +86,21 @@ class Streamer {
     Streamer& streamer_;
   };
 
+  void sizeBuilds();
+
   // Choosing
   std::vector<NodeKey> chooseGround(std::span<const Motion> motions) const;
-  MemoryPlan plan(std::size_t groundNodes) const;
-  void rank(const std::vector<NodeKey>& ground, const Position& eye);
+  MemoryNeeds needs(std::size_t groundNodes) const;
+  void chooseUniform(const std::vector<NodeKey>& ground, const Position& eye);
+  void chooseDetail(const std::vector<NodeKey>& ground, const Motion& eye);
+  bool fits(const MemoryNeeds& needs, double share) const noexcept;
+  std::size_t detailBytes() const noexcept;
+  void rank(const std::vector<NodeKey>& ground, std::span<const NodeKey> view);
   void planDrops();
   void cancelUnwanted();
-  bool isDrawable(const NodeKey& key) const noexcept;
+  bool isGroundAsBefore(const std::vector<NodeKey>& ground) const;
+  void countMissing();
+  bool isDrawable(const NodeKey& key) const;
   bool isThere(const NodeKey& key) const;
   bool isGround(std::size_t rank) const noexcept { return rank < groundCount_; }
 
@@ -91,6 +111,8 @@ class Streamer {
   void integrate(TaskRunner::Finished finished);
   void integrateJoin(const JoinTask& task);
   bool startJoin();
+  bool startRefining();
+  void change(const DrawnChange& change, std::span<const BuiltPiece> pieces);
   bool startBuild();
   bool startCalibration();
   /// Under the cap, with the renderer's share of what is drawn already.
@@ -98,18 +120,25 @@ class Streamer {
 
   const World& world_;
   EngineOptions options_;
-  std::size_t buildBytes_;        // of one node task
+  std::size_t buildBytes_ = 0;    // of one node task
   std::size_t calibrationBytes_;  // of one calibration
-  std::size_t mostViewBuilds_, mostGroundBuilds_;
+  std::size_t mostViewBuilds_ = 0, mostGroundBuilds_ = 0;
   BaseMapStore maps_;
   NodeStore nodes_;
   SliceMeter meter_;
   Housekeeping housekeeping_{*this};
 
   MemoryPlan plan_;
-  std::optional<NodeKey> centre_;  // the view's node under the active object
-  std::size_t groundCount_ = 0;    // the first of wanted_: level-0 nodes under objects
-  std::vector<NodeKey> wanted_;    // most urgent first
+  std::optional<NodeKey> centre_;  // of a uniform view: its node under the active object
+  // With detail by error:
+  std::optional<Selection> selection_;
+  std::optional<Viewer> viewer_;  // that it was chosen for
+  MemoryNeeds needs_;             // likewise
+  double tolerance_ = 1.0;        // of the pixel error, more than 1 under the cap
+  bool mayRefine_ = false;        // the drawn set can perhaps be brought nearer to the selection
+  bool lacksRoom_ = false;        // it can, but for want of room
+  std::size_t groundCount_ = 0;   // the first of wanted_: level-0 nodes under objects
+  std::vector<NodeKey> wanted_;   // most urgent first
   std::unordered_map<NodeKey, std::size_t, NodeKeyHash> ranks_;  // in wanted_
   std::size_t missing_ = 0;
   std::size_t nextWanted_ = 0;    // all before it are held or being made

@@ -19,11 +19,28 @@
 
 namespace teren {
 
-/// The view: (2 radius + 1)^2 nodes of one uniform level around the active object.
+/// Detail by the error a person sees: the land is coarser the farther away it is, to the horizon.
+struct DetailSettings {
+  /// [px] kLeastError ... kMostError: how far what is drawn may be from the level-0 surface on the screen.
+  /// Half of it takes about four times the triangles.
+  double pixelError = 2.0;
+  static constexpr double kLeastError = 0.1, kMostError = 100.0;
+  double distance = 10'000.0;  ///< [m] more than 0, at most kMostDistance: how far the land is drawn
+  static constexpr double kMostDistance = 1e6;
+  double lines = 720.0;  ///< [px] 1 ... kMostLines: the height of the picture ...
+  static constexpr double kMostLines = 32768.0;
+  double fieldOfView =
+      0.785;  ///< [radian] 0.01 ... 3: ... and the angle it shows, from its lower to its upper edge
+
+  friend bool operator==(const DetailSettings&, const DetailSettings&) = default;
+};
+
+/// The view around the active object: (2 radius + 1)^2 nodes of one uniform level, or detail by error.
 struct ViewSettings {
   int level = 2;   ///< 0 ... World::topLevel(); a level more draws a quarter of the triangles per area
   int radius = 6;  ///< 1 ... kMostRadius nodes; triangles grow with its square
   static constexpr int kMostRadius = 64;
+  std::optional<DetailSettings> detail = std::nullopt;  ///< in place of level and radius
 
   /// How far [m] the ground is drawn in every direction at least, wherever in its node the object is.
   double reach(const World& world) const noexcept;
@@ -44,11 +61,14 @@ struct EngineOptions {
 };
 
 struct EngineFigures {
-  std::size_t nodes = 0;                   ///< in the scene
-  std::size_t triangles = 0;               ///< in the scene
-  std::size_t bytes = 0;                   ///< held now, of what EngineOptions::capBytes counts
-  std::size_t peakBytes = 0;               ///< the most held so far
-  int radius = 0;                          ///< of the view drawn: less than asked for under the cap
+  std::size_t nodes = 0;      ///< in the scene
+  std::size_t triangles = 0;  ///< in the scene
+  std::size_t bytes = 0;      ///< held now, of what EngineOptions::capBytes counts
+  std::size_t peakBytes = 0;  ///< the most held so far
+  int radius = 0;             ///< of a uniform view: less than asked for under the cap
+  /// [px] With detail by error, what is aimed at: more than asked for under the cap. 0 in a uniform view.
+  double pixelError = 0.0;
+  std::vector<std::size_t> nodesAtLevel;   ///< in the scene, from level 0 on
   std::size_t pending = 0;                 ///< nodes wanted and not there yet
   std::size_t unfinishedTasks = 0;         ///< given to workers (or to later slices), at this moment
   std::uint64_t slices = 0;                ///< begun since the engine was made
@@ -64,7 +84,11 @@ class Engine {
   ~Engine();
 
   const World& world() const noexcept;
+  /// As they are now: setDetail changes them.
   const EngineOptions& options() const noexcept;
+  /// Another pixel error, distance or picture, from the next update on. Only of an engine made with detail by
+  /// error; refuses what create() would refuse.
+  Result<void> setDetail(const DetailSettings& detail);
 
   /// Adds an object; the first becomes active. The reference lives as long as the engine, or takeObjects().
   Object& add(std::unique_ptr<Object> object);

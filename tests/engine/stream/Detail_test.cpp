@@ -1,0 +1,274 @@
+// The engine with detail by error: laws 2, 4, 5 and 6 while somebody flies.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "teren/Engine.h"
+
+#include "tests/engine/stream/FaultWorld.h"
+
+namespace teren {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+constexpr std::size_t kMiB = std::size_t{1} << 20;
+
+class Puppet final : public Object {
+ public:
+  void update(double, const Ground&) override {}
+  Motion motion() const override { return place; }
+  Motion place;
+};
+
+struct DetailFlight {
+  explicit DetailFlight(int workers, DetailSettings detail = {.pixelError = 30.0, .distance = 3000.0},
+                        std::size_t cap = 512 * kMiB)
+      : world(test::faultWorld(3, 17, {1024.0, 64.0}, 20)) {
+    auto made = Engine::create(world, {.view = {.detail = detail}, .workers = workers, .capBytes = cap});
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    engine = std::move(*made);
+    puppet = static_cast<Puppet*>(&engine->add(std::make_unique<Puppet>()));
+    moveTo(10.0, 20.0);
+  }
+  void moveTo(double east, double north) {
+    puppet->place.position = *Position::fromMetres(east, north, world->pitch());
+    puppet->place.height = 60.0;
+  }
+  std::shared_ptr<const World> world;
+  std::unique_ptr<Engine> engine;
+  Puppet* puppet;
+};
+
+using Place = std::pair<std::int64_t, std::int64_t>;  // level-0 samples
+
+struct DrawnNode {
+  int level = 0;
+  std::int64_t i = 0, j = 0;
+  auto operator<=>(const DrawnNode&) const = default;
+};
+
+/// The nodes of a scene, by their interiors: the only meshes of (n - 2)^2 squares whose origin is one sample
+/// inside a node.
+std::set<DrawnNode> nodesOf(const Scene& scene, int intervals) {
+  std::set<DrawnNode> nodes;
+  for (const auto& mesh : scene.meshes()) {
+    if (mesh->columns != intervals - 2 || mesh->rows != intervals - 2) continue;
+    const std::int64_t step = std::int64_t{1} << mesh->level, side = step * intervals;
+    nodes.insert({mesh->level, (mesh->originColumn - step) / side, (mesh->originRow - step) / side});
+  }
+  return nodes;
+}
+
+/// Whether a drawn node covers the level-0 square whose south-west sample this is.
+bool isCovered(const std::set<DrawnNode>& nodes, std::int64_t column, std::int64_t row, int intervals) {
+  const auto floorDivide = [](std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((b - 1 - a) / b); };
+  for (int level = 0; level < 8; ++level) {
+    const std::int64_t side = std::int64_t{intervals} << level;
+    if (nodes.contains({level, floorDivide(column, side), floorDivide(row, side)})) return true;
+  }
+  return false;
+}
+
+/// Of the ground that nodes cover together, all but squares of a node's ring beyond which nothing is drawn.
+std::int64_t areaOf(const std::set<DrawnNode>& nodes, int intervals) {
+  std::int64_t area = 0;
+  for (const DrawnNode& node : nodes) {
+    const std::int64_t step = std::int64_t{1} << node.level, side = step * intervals;
+    const std::int64_t x = node.i * side, y = node.j * side;
+    const auto allCovered = [&](std::int64_t fromX, std::int64_t toX, std::int64_t fromY, std::int64_t toY) {
+      for (std::int64_t row = fromY; row < toY; ++row) {
+        for (std::int64_t column = fromX; column < toX; ++column) {
+          if (!isCovered(nodes, column, row, intervals)) return false;
+        }
+      }
+      return true;
+    };
+    area += (intervals - 2) * (intervals - 2) * step * step;
+    const std::int64_t strip = (intervals - 2) * step * step, in = step, out = side - step;
+    area += allCovered(x + in, x + out, y - 1, y) ? strip : 0;
+    area += allCovered(x + in, x + out, y + side, y + side + 1) ? strip : 0;
+    area += allCovered(x - 1, x, y + in, y + out) ? strip : 0;
+    area += allCovered(x + side, x + side + 1, y + in, y + out) ? strip : 0;
+    for (const std::int64_t cornerX : {std::int64_t{0}, out}) {
+      for (const std::int64_t cornerY : {std::int64_t{0}, out}) {
+        const std::int64_t fromX = x + cornerX - (cornerX == 0 ? 1 : 0),
+                           fromY = y + cornerY - (cornerY == 0 ? 1 : 0);
+        area += allCovered(fromX, fromX + step + 1, fromY, fromY + step + 1) ? step * step : 0;
+      }
+    }
+  }
+  return area;
+}
+
+/// Every triangle looks up, no edge is used twice in one direction, and together they cover what they should.
+void expectOneSurface(const Scene& scene, int intervals) {
+  std::set<std::pair<Place, Place>> edges;
+  std::int64_t twice = 0;
+  for (const auto& mesh : scene.meshes()) {
+    const std::int64_t stride = std::int64_t{1} << mesh->level;
+    for (std::size_t k = 0; k < mesh->indices->size(); k += 3) {
+      std::array<Place, 3> at;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const SurfaceVertex& vertex = mesh->vertices[(*mesh->indices)[k + c]];
+        at[c] = {mesh->originColumn + vertex.column * stride, mesh->originRow + vertex.row * stride};
+      }
+      const std::int64_t area = (at[1].first - at[0].first) * (at[2].second - at[0].second) -
+                                (at[2].first - at[0].first) * (at[1].second - at[0].second);
+      ASSERT_GT(area, 0);
+      twice += area;
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_TRUE(edges.insert({at[c], at[(c + 1) % 3]}).second) << "overlap";
+    }
+  }
+  ASSERT_EQ(twice, 2 * areaOf(nodesOf(scene, intervals), intervals));
+}
+
+class Detail : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Workers, Detail, testing::Values(0, 1, 3));
+
+TEST_P(Detail, SettlesToOneSurfaceOfManyLevelsFineUnderTheEyeAndCoarseFarAway) {
+  DetailFlight flight(GetParam());
+  flight.engine->settle();
+  const EngineFigures figures = flight.engine->figures();
+  EXPECT_EQ(figures.pending, 0U);
+  EXPECT_EQ(figures.pixelError, 30.0);
+  ASSERT_GE(figures.nodesAtLevel.size(), 4U);
+  EXPECT_GT(figures.nodesAtLevel[0], 0U);
+  EXPECT_GT(figures.nodesAtLevel[3], 0U);
+  std::size_t nodes = 0;
+  for (const std::size_t count : figures.nodesAtLevel) nodes += count;
+  EXPECT_EQ(nodes, figures.nodes);
+  expectOneSurface(*flight.engine->scene(), flight.world->intervals());
+  const Position eye = flight.puppet->place.position;
+  EXPECT_EQ(*flight.engine->drawnHeight(eye), *flight.engine->finestHeight(eye));
+}
+
+TEST_P(Detail, IsOneSurfaceInEveryPictureOfAFlightAndNothingThatWasDrawnInTheViewIsMissing) {
+  DetailFlight flight(GetParam());
+  const int n = flight.world->intervals();
+  std::uint64_t serial = 0;
+  int published = 0;
+  for (int step = 0; published < 40 && step < 3000; ++step) {
+    flight.moveTo(12.0 * step, 300.0 * std::sin(0.02 * step));
+    const bool wasThere = flight.engine->drawnHeight(flight.puppet->place.position).has_value();
+    flight.engine->update(1.0 / 60.0, microseconds(300));
+    EXPECT_TRUE(!wasThere || flight.engine->drawnHeight(flight.puppet->place.position).has_value());
+    const auto scene = flight.engine->scene();
+    if (scene->serial() == serial) continue;
+    serial = scene->serial();
+    if (++published % 3 == 0) expectOneSurface(*scene, n);
+    ASSERT_FALSE(HasFatalFailure()) << "step " << step;
+  }
+  EXPECT_GE(published, 40);
+}
+
+using Surface = std::map<std::tuple<std::int64_t, std::int64_t, int>, std::tuple<float, int, int>>;
+
+Surface surfaceOf(const Scene& scene) {
+  Surface surface;
+  for (const auto& mesh : scene.meshes()) {
+    for (const SurfaceVertex& vertex : mesh->vertices) {
+      const std::int64_t stride = std::int64_t{1} << mesh->level;
+      surface[{mesh->originColumn + vertex.column * stride, mesh->originRow + vertex.row * stride, 0}] = {
+          vertex.height, vertex.normalX, vertex.normalY};
+    }
+  }
+  return surface;
+}
+
+TEST_P(Detail, ShowsTheSameSurfaceHoweverTheWorkWasSliced) {
+  const auto surface = [](microseconds budget) {
+    DetailFlight flight(GetParam());
+    while (flight.engine->figures().pending > 0 || flight.engine->scene()->serial() == 0) {
+      flight.engine->update(0.0, budget);
+    }
+    return surfaceOf(*flight.engine->scene());
+  };
+  const Surface patient = surface(microseconds(1'000'000));
+  EXPECT_GT(patient.size(), 10'000U);
+  EXPECT_EQ(patient, surface(microseconds(50)));
+}
+
+TEST_P(Detail, HoldsTheCapAtEveryMomentAndPaysWithPixelError) {
+  const DetailSettings sharp{.pixelError = 6.0, .distance = 3000.0};
+  DetailFlight flight(GetParam(), sharp, 12 * kMiB), ample(GetParam(), sharp);
+  for (int step = 0; step < 300; ++step) {
+    const double leap = step % 100 == 99 ? 1e5 * step : 0.0;
+    flight.moveTo(leap + 20.0 * step, 200.0 * std::sin(0.05 * step));
+    flight.engine->update(1.0 / 60.0, microseconds(400));
+    ASSERT_LE(flight.engine->figures().bytes, 12 * kMiB) << "step " << step;
+  }
+  for (DetailFlight* one : {&flight, &ample}) one->engine->settle();
+  EXPECT_LE(flight.engine->figures().peakBytes, 12 * kMiB);
+  EXPECT_EQ(flight.engine->figures().pending, 0U);
+  EXPECT_GT(flight.engine->figures().pixelError, 6.0);
+  EXPECT_GT(flight.engine->figures().nodes, 100U);
+  EXPECT_EQ(ample.engine->figures().pixelError, 6.0);
+  EXPECT_LT(flight.engine->figures().nodes, ample.engine->figures().nodes);
+}
+
+TEST_P(Detail, ComesAndGoesWithThePixelErrorTheDistanceAndThePicture) {
+  DetailFlight flight(GetParam());
+  flight.engine->settle();
+  const std::size_t before = flight.engine->figures().nodes;
+  const auto nodesWith = [&](const DetailSettings& detail) {
+    EXPECT_TRUE(flight.engine->setDetail(detail).ok());
+    EXPECT_EQ(flight.engine->options().view.detail, detail);
+    flight.engine->settle();
+    EXPECT_EQ(flight.engine->figures().pending, 0U);
+    expectOneSurface(*flight.engine->scene(), flight.world->intervals());
+    return flight.engine->figures().nodes;
+  };
+  EXPECT_GT(nodesWith({.pixelError = 15.0, .distance = 3000.0}), before);
+  EXPECT_LT(nodesWith({.pixelError = 90.0, .distance = 3000.0}), before);
+  EXPECT_GT(nodesWith({.pixelError = 30.0, .distance = 6000.0}), before);
+  EXPECT_LT(nodesWith({.pixelError = 30.0, .distance = 1000.0}), before);
+  EXPECT_GT(nodesWith({.pixelError = 30.0, .distance = 3000.0, .lines = 1500.0}), before);
+}
+
+TEST_P(Detail, OfALeapFarAwayLeavesNothingBehind) {
+  DetailFlight flight(GetParam());
+  flight.engine->settle();
+  const std::size_t bytes = flight.engine->figures().bytes;
+  flight.moveTo(3e6, -2e6);
+  flight.engine->settle();
+  EXPECT_FALSE(flight.engine->drawnHeight(*Position::fromMetres(10.0, 20.0, 64.0)).has_value());
+  EXPECT_TRUE(flight.engine->drawnHeight(flight.puppet->place.position).has_value());
+  EXPECT_LT(flight.engine->figures().bytes, 2 * bytes);
+  expectOneSurface(*flight.engine->scene(), flight.world->intervals());
+}
+
+TEST(DetailSettings, ThatCannotBeAreRefusedWithTheirValue) {
+  const auto world = test::faultWorld(3, 17, {1024.0, 64.0}, 20);
+  const double nan = std::nan("");
+  for (const auto& [detail, word] :
+       std::vector<std::pair<DetailSettings, std::string>>{{{.pixelError = 0.01}, "0.01"},
+                                                           {{.pixelError = nan}, "nan"},
+                                                           {{.distance = 0.0}, "distance"},
+                                                           {{.distance = 2e6}, "2e+06"},
+                                                           {{.lines = 0.0}, "height"},
+                                                           {{.fieldOfView = 3.2}, "3.2"}}) {
+    const auto made = Engine::create(world, {.view = {.detail = detail}});
+    ASSERT_FALSE(made.ok());
+    EXPECT_NE(made.error().message.find(word), std::string::npos) << made.error().message;
+    DetailFlight flight(0);
+    EXPECT_FALSE(flight.engine->setDetail(detail).ok());
+  }
+  auto uniform = Engine::create(world, {});
+  EXPECT_FALSE((*uniform)->setDetail({}).ok());
+}
+
+}  // namespace
+}  // namespace teren

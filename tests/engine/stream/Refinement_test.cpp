@@ -1,0 +1,139 @@
+#include "stream/Refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "stream/JoinTask.h"
+#include "tests/engine/stream/PatchGround.h"
+
+namespace teren {
+namespace {
+
+constexpr int kIntervals = 2;
+
+Selection::Ground ground() {
+  Selection::Ground ground{64.0, 0.0, 0.0, {0.0}};
+  for (int level = 1; level <= 6; ++level) ground.errors.push_back(0.5 * std::exp2(level));
+  return ground;
+}
+
+/// A drawn set on its way to what a viewer wants, its heights arriving in random order.
+class Way {
+ public:
+  explicit Way(std::uint64_t seed) : dice_(seed) {}
+
+  void lookFrom(double east, double north) {
+    const Viewer viewer{
+        *Position::fromMetres(east, north, 64.0), 20.0, {.pixelError = 4.0, .distance = 1500.0}};
+    selection_.choose({&viewer, 1}, 1.0);
+    selection_.keep();
+  }
+  /// One node comes, and whatever is possible is done; false once everything is there and drawn.
+  bool goOn() {
+    std::vector<NodeKey> absent;
+    for (const SelectedNode& node : selection_.nodes()) {
+      if (!store_.heights(node.key)) absent.push_back(node.key);
+    }
+    if (!absent.empty()) {
+      const auto which = static_cast<std::size_t>(dice_.whole(0, static_cast<int>(absent.size()) - 1));
+      store_.insert(absent[which], std::make_shared<const HeightMap>(kIntervals + 1, kIntervals + 1));
+    }
+    bool changed = false;
+    for (;;) {
+      const DrawnChange change = nextChange(store_, selection_, static_cast<std::size_t>(dice_.whole(1, 3)));
+      if (change.add.empty() && change.remove.empty()) break;
+      draw(change);
+      changed = true;
+    }
+    return changed || !absent.empty();
+  }
+
+  const Selection& selection() const { return selection_; }
+  const NodeStore& store() const { return store_; }
+  std::vector<NodeKey> drawn() const {
+    std::vector<NodeKey> keys;
+    store_.forEachDrawn([&](const NodeKey& key) { keys.push_back(key); });
+    return keys;
+  }
+
+ private:
+  /// The ground that was drawn and is still within the roots must be drawn afterwards, and none twice.
+  void draw(const DrawnChange& change) {
+    const std::vector<NodeKey> before = drawn();
+    JoinTask task(store_, change);
+    while (!task.step(Slice::unlimited())) {
+    }
+    ASSERT_TRUE(store_.apply(task.change(), task.pieces()));
+    const std::vector<NodeKey> after = drawn();
+    for (const NodeKey& key : after) {
+      ASSERT_EQ(store_.drawnIn(key).size(), 1U);
+      if (key.level < 12) {
+        const auto over = store_.drawnOver(key.parent());
+        ASSERT_FALSE(over.has_value());
+      }
+    }
+    for (const NodeKey& key : before) {
+      if (!selection_.isRoot(key.ancestor(std::max(key.level, selection_.rootLevel())))) continue;
+      double area = 0.0;
+      for (const NodeKey& part : store_.drawnIn(key)) area += std::exp2(2 * part.level);
+      ASSERT_TRUE(store_.drawnOver(key) || area == std::exp2(2 * key.level)) << "a hole";
+    }
+  }
+
+  Dice dice_;
+  Selection selection_{ground()};
+  NodeStore store_{1.0, kIntervals};
+};
+
+bool isReached(const Way& way) {
+  std::size_t drawn = 0;
+  way.store().forEachDrawn([&](const NodeKey& key) { drawn += way.selection().isLeaf(key) ? 1U : 0U; });
+  return drawn == way.selection().leaves() && way.store().drawnCount() == drawn;
+}
+
+TEST(Refinement, ReachesTheCutWhateverComesFirstWithoutAHoleOnTheWay) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    Way way(seed);
+    way.lookFrom(100.0, 100.0);
+    while (way.goOn() && !testing::Test::HasFatalFailure()) {
+    }
+    ASSERT_TRUE(isReached(way));
+    ASSERT_GT(way.selection().leaves(), 100U);
+  }
+}
+
+TEST(Refinement, FollowsAViewerWhoNeverWaitsForIt) {
+  Dice dice(11);
+  Way way(7);
+  double east = 0.0, north = 0.0;
+  for (int step = 0; step < 150; ++step) {
+    const bool leaps = step % 50 == 49;
+    east += leaps ? 1200.0 : dice.between(0.0, 60.0);
+    north += dice.between(-40.0, 40.0);
+    way.lookFrom(east, north);
+    for (int k = 0; k < 8; ++k) way.goOn();
+    ASSERT_FALSE(testing::Test::HasFatalFailure());
+  }
+  while (way.goOn() && !testing::Test::HasFatalFailure()) {
+  }
+  EXPECT_TRUE(isReached(way));
+}
+
+TEST(Refinement, OfACutThatIsDrawnIsNothing) {
+  Way way(3);
+  way.lookFrom(0.0, 0.0);
+  while (way.goOn()) {
+  }
+  const DrawnChange none = nextChange(way.store(), way.selection(), 4);
+  EXPECT_TRUE(none.add.empty() && none.remove.empty());
+}
+
+}  // namespace
+}  // namespace teren
