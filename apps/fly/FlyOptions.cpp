@@ -32,8 +32,10 @@ int FlyOptions::defaultWorkers() noexcept {
 }
 
 FlyCommandLine::FlyCommandLine(CLI::App& application)
-    : viewDistance_(addViewDistance(
-          application, "metres of land to draw in every direction at least; sets --radius [2560]")),
+    : viewDistance_(addViewDistance(application,
+                                    "metres of land to draw in every direction at least; sets --radius, but "
+                                    "with --pixel-error [2560]")),
+      pixelError_(addPixelError(application)),
       viewLevel_(
           application.add_option("--view-level", "level of the land, 0 is finest [3]")->type_name("L")),
       radius_(application.add_option("--radius", "nodes to draw in every direction, 1 to 64 [5]")
@@ -50,6 +52,12 @@ FlyCommandLine::FlyCommandLine(CLI::App& application)
       window_(application, "fly this long, then end") {}
 
 Result<ViewSettings> FlyCommandLine::view(const World& world) const {
+  if (pixelError_->count() > 0) {
+    if (viewLevel_->count() + radius_->count() > 0) {
+      return Error{"--pixel-error excludes --view-level and --radius"};
+    }
+    return viewWithin(*pixelError_, *viewDistance_);
+  }
   ViewSettings view = kFlyingView;
   const Result<int> level =
       readWhole(*viewLevel_, std::min(view.level, world.topLevel()), 0, world.topLevel());

@@ -33,6 +33,7 @@ class FlyCommandLine {
   Result<ViewSettings> view(const World& world) const;
 
   const CLI::Option* viewDistance_;
+  const CLI::Option* pixelError_;
   const CLI::Option* viewLevel_;
   const CLI::Option* radius_;
   const CLI::Option* workers_;

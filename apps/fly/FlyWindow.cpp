@@ -131,8 +131,19 @@ Viewpoint FlyWindow::viewpoint() const {
 }
 
 void FlyWindow::updateScene(double dt) {
-  scene_.show(flight_, viewpoint(), rig_.person(), dt);
+  const Viewpoint view = viewpoint();
+  scene_.show(flight_, view, rig_.person(), dt);
+  fitDetail(view.fieldOfView);
   flight_.engine().setRendererBytes(scene_.bufferBytes());
+}
+
+void FlyWindow::fitDetail(double fieldOfView) {
+  Engine& engine = flight_.engine();
+  if (!engine.options().view.detail || area_->pixels().isEmpty()) return;
+  DetailSettings detail = *engine.options().view.detail;
+  detail.lines = area_->pixels().height();
+  detail.fieldOfView = fieldOfView;
+  if (const Result<void> fitted = engine.setDetail(detail); !fitted) complain(fitted.error().message);
 }
 
 std::size_t FlyWindow::bytes() const {

@@ -64,6 +64,8 @@ class FlyWindow : public QWidget {
   void tick();
   void updateScene(double dt);
   Viewpoint viewpoint() const;
+  /// Tells the engine the size of the picture, which detail by error depends on.
+  void fitDetail(double fieldOfView);
   void showFigures();
   void showHelp();
   bool isLastFrame(Clock::time_point now) const;

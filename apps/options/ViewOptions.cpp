@@ -10,6 +10,32 @@ const CLI::Option* addViewDistance(CLI::App& application, const std::string& doc
   return application.add_option("--view-distance", doc)->type_name("M");
 }
 
+const CLI::Option* addPixelError(CLI::App& application) {
+  return application
+      .add_option(
+          "--pixel-error",
+          "pixels that the land may be off by on the screen, 0.1 to 100: finer near by, coarser far away, "
+          "10000 m of it unless --view-distance says otherwise")
+      ->type_name("PX");
+}
+
+Result<ViewSettings> viewWithin(const CLI::Option& pixelError, const CLI::Option& viewDistance) {
+  DetailSettings detail{.distance = kDetailDistance};
+  const Result<double> pixels = numberArgument(pixelError.get_name(), argument(pixelError),
+                                               DetailSettings::kLeastError, DetailSettings::kMostError);
+  if (!pixels) return pixels.error();
+  detail.pixelError = *pixels;
+  if (viewDistance.count() > 0) {
+    const Result<double> distance =
+        numberArgument(viewDistance.get_name(), argument(viewDistance), 1.0, DetailSettings::kMostDistance);
+    if (!distance) return distance.error();
+    detail.distance = *distance;
+  }
+  ViewSettings view;
+  view.detail = detail;
+  return view;
+}
+
 Result<ViewSettings> viewReaching(const CLI::Option& viewDistance, const ViewSettings& view,
                                   const World& world) {
   if (viewDistance.count() == 0) return view;

@@ -90,7 +90,7 @@ class FlightCommand final : public Command {
         start_(add("--start", "X Y", "where the first begins, metres east and north [0 0]")->expected(2)),
         path_(add("--path", "PATH", "straight (north) or turns [straight]")),
         viewDistance_(addViewDistance(application(), "metres of land to keep in every direction [2560]")),
-        pixelError_(add("--pixel-error", "PX", "not yet: the land has one level of detail")),
+        pixelError_(addPixelError(application())),
         workers_(add("--workers", "N", "threads that make the landscape; 0: the update itself does [0]")),
         budget_(add("--budget-us", "N", "microseconds an update may take [2000]")),
         cap_(add("--cap-mib", "N", "most MiB the engine may hold [512]")),
@@ -122,11 +122,6 @@ class FlightCommand final : public Command {
 
   /// What can be checked without the world.
   Result<FlightPlan> readPlan() const {
-    if (pixelError_->count() > 0) {
-      return Error{
-          "--pixel-error cannot be heeded yet, because the engine draws one uniform level of detail; use "
-          "--view-distance"};
-    }
     if (edits_->count() > 0) return Error{"--edits cannot be heeded yet, because the landscape has no edits"};
     FlightPlan plan;
     const Result<double> speed = number(*speed_, plan.speed, 0.0, kFastest);
@@ -173,7 +168,8 @@ class FlightCommand final : public Command {
     if (!position) return Error{"--start: " + position.error().message};
     plan.start = *position;
     const ViewSettings usual{std::min(kFlyingView.level, world.topLevel()), kFlyingView.radius};
-    const Result<ViewSettings> view = viewReaching(*viewDistance_, usual, world);
+    const Result<ViewSettings> view = pixelError_->count() > 0 ? viewWithin(*pixelError_, *viewDistance_)
+                                                               : viewReaching(*viewDistance_, usual, world);
     if (!view) return view.error();
     plan.engine.view = *view;
     return {};

@@ -16,6 +16,7 @@ Result<void> FieldEngine::make(const TerrainFields& fields) {
   eye_ = eye.get();
   engine_->add(std::move(eye));
   putEye(point_);
+  fitPicture(lines_, fieldOfView_);
   return {};
 }
 
@@ -29,6 +30,16 @@ void FieldEngine::putEye(const SbVec3d& point) {
   if (!engine_) return;
   const Result<Position> position = Position::fromMetres(point[0], point[1], engine_->world().pitch());
   if (position) eye_->put(*position, point[2]);
+}
+
+void FieldEngine::fitPicture(double lines, double fieldOfView) {
+  lines_ = lines;
+  fieldOfView_ = fieldOfView;
+  if (!engine_ || !engine_->options().view.detail) return;
+  DetailSettings detail = *engine_->options().view.detail;
+  detail.lines = lines;
+  detail.fieldOfView = fieldOfView;
+  static_cast<void>(engine_->setDetail(detail));
 }
 
 bool FieldEngine::update(double dt, std::chrono::nanoseconds budget) {

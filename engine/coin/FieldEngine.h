@@ -29,6 +29,10 @@ class FieldEngine {
   /// engine.
   void putEye(const SbVec3d& point);
 
+  /// The picture [px] and the angle [radian] it shows, which detail by error depends on; what cannot be is
+  /// ignored. They outlive the engine.
+  void fitPicture(double lines, double fieldOfView);
+
   /// One update of the engine (there must be one); whether it should be followed by another although the eye
   /// stands still.
   bool update(double dt, std::chrono::nanoseconds budget);
@@ -42,6 +46,7 @@ class FieldEngine {
   std::unique_ptr<Engine> engine_;
   EyeObject* eye_ = nullptr;  // the engine's
   SbVec3d point_{0.0, 0.0, 0.0};
+  double lines_ = DetailSettings{}.lines, fieldOfView_ = DetailSettings{}.fieldOfView;
 };
 
 }  // namespace teren

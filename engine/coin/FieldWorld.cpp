@@ -1,5 +1,6 @@
 #include "coin/FieldWorld.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -53,7 +54,27 @@ Result<WorldDescription> describe(const TerrainFields& fields, const PluginRegis
   return WorldDescription::standard();
 }
 
+/// Of fields whose pixelError is not 0.
+Result<ViewSettings> checkDetail(const TerrainFields& fields) {
+  const double pixels = static_cast<double>(fields.pixelError);
+  const auto least = static_cast<float>(DetailSettings::kLeastError);  // as it is written in a file
+  if (!(fields.pixelError >= least && pixels <= DetailSettings::kMostError)) {
+    return Error{"pixelError is " + numberText(pixels) + ", expected 0 or " +
+                 numberText(DetailSettings::kLeastError) + " to " + numberText(DetailSettings::kMostError)};
+  }
+  const double distance = static_cast<double>(fields.viewDistance);
+  if (!(distance > 0.0 && distance <= DetailSettings::kMostDistance)) {
+    return Error{"viewDistance is " + numberText(distance) + " m, expected more than 0 and at most " +
+                 numberText(DetailSettings::kMostDistance) + " m"};
+  }
+  ViewSettings view;
+  view.detail =
+      DetailSettings{.pixelError = std::max(pixels, DetailSettings::kLeastError), .distance = distance};
+  return view;
+}
+
 Result<ViewSettings> checkView(const TerrainFields& fields, const World& world) {
+  if (fields.pixelError != 0.0F) return checkDetail(fields);
   if (fields.viewLevel < 0 || fields.viewLevel > world.topLevel()) {
     return Error{"viewLevel is " + std::to_string(fields.viewLevel) + ", expected 0 to " +
                  std::to_string(world.topLevel()) + ", the world's top level"};

@@ -15,6 +15,7 @@ struct TerrainFields {
   std::string seed, world, generator;
   std::vector<std::string> parameters;
   float viewDistance = 0.0F;
+  float pixelError = 0.0F;
   int viewLevel = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -25,6 +26,7 @@
 #include <Inventor/elements/SoProjectionMatrixElement.h>
 #include <Inventor/elements/SoViewVolumeElement.h>
 #include <Inventor/elements/SoViewingMatrixElement.h>
+#include <Inventor/elements/SoViewportRegionElement.h>
 #include <Inventor/errors/SoDebugError.h>
 #include <Inventor/lists/SbStringList.h>
 #include <Inventor/sensors/SoTimerSensor.h>
@@ -124,6 +126,7 @@ teren::TerrainFields SoTerrain::Private::readFields() const {
     fields.parameters.emplace_back(node.parameters[index].getString());
   }
   fields.viewDistance = node.viewDistance.getValue();
+  fields.pixelError = node.pixelError.getValue();
   fields.viewLevel = node.viewLevel.getValue();
   return fields;
 }
@@ -302,6 +305,7 @@ SoTerrain::SoTerrain() {
   SO_NODE_ADD_FIELD(generator, (""));
   SO_NODE_ADD_EMPTY_MFIELD(parameters);
   SO_NODE_ADD_FIELD(viewDistance, (1500.0F));
+  SO_NODE_ADD_FIELD(pixelError, (0.0F));
   SO_NODE_ADD_FIELD(viewLevel, (2));
   SO_NODE_ADD_FIELD(frameBudget, (SbTime(0.004)));
   SO_NODE_ADD_FIELD(waterLevel, (-150.0F));
@@ -376,7 +380,7 @@ void SoTerrain::notify(SoNotList* list) {
     if (field == &hazeColor) private_->takeHaze();
     if (field == &viewDistance) private_->takeDistance();
     if (field == &seed || field == &world || field == &generator || field == &parameters ||
-        field == &viewDistance || field == &viewLevel) {
+        field == &viewDistance || field == &pixelError || field == &viewLevel) {
       private_->fieldsChanged = true;
       private_->armTimer();
     }
@@ -466,6 +470,9 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
   if (private_->livesByFields()) {
     private_->makeEngineIfFieldsChanged();
     private_->followEye(teren::eyePosition(state));
+    if (const std::optional<double> angle = teren::fieldOfView(state)) {
+      private_->source.fitPicture(SoViewportRegionElement::get(state).getViewportSizePixels()[1], *angle);
+    }
   }
   teren::Picture picture = private_->look(state);
   if (!isFinite(picture.eye)) return;  // of a camera that is nowhere

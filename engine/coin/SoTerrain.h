@@ -43,6 +43,7 @@ class Scene;
 ///     generator     ""                # a world of one layer made by this generator plugin
 ///     parameters    []                # of the generator, "name=value"
 ///     viewDistance  1500              # [m]
+///     pixelError    0                 # [px] 0: one level, which is
 ///     viewLevel     2                 # 0: finest
 ///     frameBudget   0.004             # [s]
 ///     waterLevel    -150              # [m]
@@ -69,10 +70,15 @@ class SoTerrain : public SoNode {
   SoSFString seed, world, generator;
   SoMFString parameters;
 
-  /// [m] The haze is total there; > 0, at most 64 nodes of `viewLevel`. Triangles grow with its square.
+  /// [m] The haze is total there; > 0, at most 64 nodes of `viewLevel`: triangles grow with its square. With
+  /// a `pixelError` at most 1e6 m: they grow far slower.
   SoSFFloat viewDistance;
-  /// The uniform level of the ground, 0 (finest) ... World::topLevel(); each step draws a quarter of the
-  /// triangles per area.
+  /// [px] How far the ground drawn may be from the level-0 surface, as the last GL traversal's camera sees
+  /// it: 0.1
+  /// ... 100. Half of it draws about four times the triangles. 0: `viewLevel` everywhere.
+  SoSFFloat pixelError;
+  /// Where `pixelError` is 0: the uniform level of the ground, 0 (finest) ... World::topLevel(); each step
+  /// draws a quarter of the triangles per area.
   SoSFInt32 viewLevel;
   /// [s] How long each update may work, 0 ... 1. More fills the view sooner and costs frame rate meanwhile.
   SoSFTime frameBudget;

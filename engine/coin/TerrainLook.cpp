@@ -1,6 +1,7 @@
 #include "coin/TerrainLook.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <Inventor/SbMatrix.h>
@@ -27,6 +28,15 @@ SbVec3d eyePosition(SoState* state) {
   const SbDPMatrix fromWorld = precise(SoModelMatrixElement::get(state)).inverse();
   fromWorld.multVecMatrix(SoViewVolumeElement::get(state).getDPViewVolume().getProjectionPoint(), eye);
   return eye;
+}
+
+std::optional<double> fieldOfView(SoState* state) {
+  const SbViewVolume& volume = SoViewVolumeElement::get(state);
+  const auto height = static_cast<double>(volume.getHeight()),
+             near = static_cast<double>(volume.getNearDist());
+  if (volume.getProjectionType() != SbViewVolume::PERSPECTIVE || !(height > 0.0 && near > 0.0))
+    return std::nullopt;
+  return 2.0 * std::atan(0.5 * height / near);
 }
 
 Sun sunOf(SoState* state) {

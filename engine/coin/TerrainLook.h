@@ -2,6 +2,7 @@
 // sight.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Inventor/SbColor.h>
@@ -22,6 +23,8 @@ namespace teren {
 /// The eye, in the coordinates the model matrix leads from: the place of the camera as it was given, which is
 /// known better than the matrix that is made from it.
 SbVec3d eyePosition(SoState* state);
+/// [radian] Of the picture's height; empty where the camera has no perspective.
+std::optional<double> fieldOfView(SoState* state);
 /// A matrix of Inventor's with the numbers it has.
 SbDPMatrix precise(const SbMatrix& matrix);
 

@@ -132,6 +132,7 @@ TEST(HostileField, OfNumbersIsRefusedWithOneSentenceAndTheValueBeforeHolds) {
       Shown(view).expectRefusal("hazeColor is", [&](SoTerrain& terrain) { terrain.hazeColor = haze; });
     }
     Shown(view).expectRefusal("viewDistance is", [&](SoTerrain& terrain) { terrain.viewDistance = narrow; });
+    Shown(view).expectRefusal("pixelError is", [&](SoTerrain& terrain) { terrain.pixelError = narrow; });
     Shown(view).expectRefusal("frameBudget is",
                               [&](SoTerrain& terrain) { terrain.frameBudget = SbTime(odd); });
   }

@@ -1,6 +1,8 @@
 // What must be true of the pixels.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include <Inventor/nodes/SoDirectionalLight.h>
 #include <Inventor/nodes/SoDrawStyle.h>
@@ -128,6 +130,42 @@ TEST(Picture, ShowsTheSeaWhereItsBedIsOutsideTheView) {
   const QImage picture = view.picture(stage.root, kMagenta);
   EXPECT_EQ(stage.terrain->drawnTriangles(), 0U);
   EXPECT_EQ(backgroundPixels(picture), 0);
+}
+
+/// The standard world at many levels, chosen for one eye; then seen from others, wherever its levels meet.
+TEST(Picture, OfManyLevelsShowsNoBackgroundThroughTheGroundFromAnywhere) {
+  const Stage stage;
+  stage.terrain->seed = "42";
+  stage.terrain->waterLevel = -1e6F;  // water would hide cracks
+  stage.camera->heightAngle = 1.4F;
+  OffscreenView view(480, 270);
+  RandomSequence random(5);
+  for (const float pixelError : {60.0F, 25.0F}) {
+    stage.terrain->viewDistance = 4000.0F;
+    stage.terrain->pixelError = pixelError;
+    stage.look(SbVec3f(0.0F, 0.0F, 500.0F), 0.0, -90.0);
+    view.picture(stage.root, kMagenta);  // from here the levels are chosen
+    stage.terrain->settle();
+    const Engine& engine = *stage.terrain->engine();
+    const std::vector<std::size_t> nodes = engine.figures().nodesAtLevel;
+    ASSERT_GE(std::count_if(nodes.begin(), nodes.end(), [](std::size_t count) { return count > 0; }), 4);
+    for (int turn = 0; turn < 30; ++turn) {
+      const auto place = [&](float reach, double above) {
+        const auto x = static_cast<float>(reach * (2.0 * unit(random) - 1.0));
+        const auto y = static_cast<float>(reach * (2.0 * unit(random) - 1.0));
+        const auto at = Position::fromMetres(x, y, engine.world().pitch());
+        return SbVec3f(x, y, static_cast<float>(*engine.drawnHeight(*at) + above));
+      };
+      const SbVec3f high = place(2500.0F, 20.0 + 200.0 * unit(random));
+      stage.look(high, 360.0 * unit(random), -90.0 + 25.0 * unit(random));
+      EXPECT_EQ(backgroundPixels(view.picture(stage.root, kMagenta)), 0)
+          << "at " << high[0] << ", " << high[1];
+      const SbVec3f low = place(1500.0F, 20.0 + 200.0 * unit(random));
+      stage.look(low, 360.0 * unit(random), 0.0);
+      EXPECT_EQ(backgroundBelowTheHorizon(view.picture(stage.root, kMagenta)), 0)
+          << "at " << low[0] << ", " << low[1];
+    }
+  }
 }
 
 /// The standard world, settled, somewhere on dry land.

@@ -158,21 +158,23 @@ TEST_P(SoTerrainRefuses, ABadFieldWithOneSentenceAndKeepsTheLandscape) {
 
 INSTANTIATE_TEST_SUITE_P(
     EachField, SoTerrainRefuses,
-    ::testing::Values(BadField{"seed \"-1\"", "seed", "-1"},
-                      BadField{"seed \"18446744073709551616\"", "seed", "616"},
-                      BadField{"seed \"4x\"", "seed", "4x"},
-                      BadField{"world \"/nowhere/none.json\"", "none.json", "/nowhere"},
-                      BadField{"generator \"nosuch\"", "generator", "nosuch"},
-                      BadField{"generator \"band\"", "generator", "band"},
-                      BadField{"generator \"fault\" world \"a.json\"", "world", "a.json"},
-                      BadField{"parameters \"faults=3\"", "parameters", "faults=3"},
-                      BadField{"generator \"fault\" parameters \"faults\"", "parameters", "faults"},
-                      BadField{"generator \"fault\" parameters \"faults=-7\"", "faults", "-7"},
-                      BadField{"generator \"fault\" parameters \"nosuch=1\"", "nosuch", "nosuch"},
-                      BadField{"viewLevel -1", "viewLevel", "-1"},
-                      BadField{"viewLevel 99", "viewLevel", "99"},
-                      BadField{"viewDistance 0", "viewDistance", "0 m"},
-                      BadField{"viewDistance 1e9", "viewDistance", "1e+09"}));
+    ::testing::Values(
+        BadField{"seed \"-1\"", "seed", "-1"}, BadField{"seed \"18446744073709551616\"", "seed", "616"},
+        BadField{"seed \"4x\"", "seed", "4x"},
+        BadField{"world \"/nowhere/none.json\"", "none.json", "/nowhere"},
+        BadField{"generator \"nosuch\"", "generator", "nosuch"},
+        BadField{"generator \"band\"", "generator", "band"},
+        BadField{"generator \"fault\" world \"a.json\"", "world", "a.json"},
+        BadField{"parameters \"faults=3\"", "parameters", "faults=3"},
+        BadField{"generator \"fault\" parameters \"faults\"", "parameters", "faults"},
+        BadField{"generator \"fault\" parameters \"faults=-7\"", "faults", "-7"},
+        BadField{"generator \"fault\" parameters \"nosuch=1\"", "nosuch", "nosuch"},
+        BadField{"viewLevel -1", "viewLevel", "-1"}, BadField{"viewLevel 99", "viewLevel", "99"},
+        BadField{"pixelError -1", "pixelError", "-1"}, BadField{"pixelError 0.05", "pixelError", "0.05"},
+        BadField{"pixelError 101", "pixelError", "101"},
+        BadField{"pixelError 20 viewDistance 2e6", "viewDistance", "2e+06"},
+        BadField{"viewDistance 0", "viewDistance", "0 m"},
+        BadField{"viewDistance 1e9", "viewDistance", "1e+09"}));
 
 TEST(SoTerrain, RefusesNumbersThatAreNone) {
   const Complaints complaints;

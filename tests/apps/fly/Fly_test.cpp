@@ -176,7 +176,12 @@ TEST_F(Fly, RefusesAWrongCommandLineInOneSentence) {
                                 "--view-distance 500 --radius 3",
                                 "--screenshot ''",
                                 "--stats=",
-                                "--pixel-error 1",
+                                "--pixel-error 0",
+                                "--pixel-error nan",
+                                "--pixel-error 101",
+                                "--pixel-error 8 --radius 3",
+                                "--pixel-error 8 --view-level 1",
+                                "--pixel-error 8 --view-distance 2e6",
                                 "--generator nothing-of-that-name",
                                 "--world /no/such/file",
                                 "extra"}) {

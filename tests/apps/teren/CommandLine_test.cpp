@@ -180,7 +180,7 @@ TEST(CommandLine, RefusesFlightsThatCannotBe) {
                  {flight({"--path", ""}), "--path is \"\""},
                  {flight({"--view-distance", "0"}), "--view-distance is \"0\""},
                  {flight({"--view-distance", "1e12"}), "--view-distance is \"1e12\""},
-                 {flight({"--pixel-error", "4"}), "--pixel-error"},
+                 {flight({"--pixel-error", "0.05"}), "--pixel-error is \"0.05\""},
                  {flight({"--workers", "-1"}), "--workers is \"-1\""},
                  {flight({"--workers", "65"}), "--workers is \"65\""},
                  {flight({"--budget-us", "0"}), "--budget-us is \"0\""},
