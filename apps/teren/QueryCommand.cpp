@@ -70,11 +70,11 @@ class QueryCommand final : public Command {
     if (!world) return fail(kWrongInput, world.error().message);
     const Result<std::vector<TypedPoint>> points = readPoints(points_->results(), (*world)->pitch());
     if (!points) return fail(kWrongInput, points.error().message);
-    std::vector<SurfacePoint> surfaces;
-    for (const TypedPoint& point : points.value()) {
-      surfaces.push_back((*world)->query(point.position));
-      if (const auto code = failWith(**world, "there is no answer")) return *code;
-    }
+    std::vector<Position> positions;
+    for (const TypedPoint& point : points.value()) positions.push_back(point.position);
+    std::vector<SurfacePoint> surfaces(positions.size());
+    (*world)->query(positions, surfaces);
+    if (const auto code = failWith(**world, "there is no answer")) return *code;
     answer(points.value(), surfaces);
     complainAbout(**world);
     return kSuccess;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <exception>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "teren/Quote.h"
@@ -177,10 +179,27 @@ CellMaps finishedMaps(const Layer& layer, int index, std::int64_t i, std::int64_
   return maps;
 }
 
-/// The finest maps of the cell of a layer that a position lies in.
-CellMaps mapsAround(const Layer& layer, int index, const Position& position, BaseMapStore& store) {
+/// Calls visit(maps, number) for every place, with the finest maps of the layer's cell that it lies in: cell
+/// by cell, so that each is looked up, or made, once.
+template <class Visit>
+void forEachByCell(const Layer& layer, int index, std::span<const Position> places, BaseMapStore& store,
+                   const Visit& visit) {
   const int shift = layer.pitchShift();
-  return finishedMaps(layer, index, position.i >> shift, position.j >> shift, store);
+  const auto cell = [&](std::size_t number) {
+    return std::pair{places[number].j >> shift, places[number].i >> shift};
+  };
+  const auto mapsOf = [&](std::size_t number) {
+    return finishedMaps(layer, index, cell(number).second, cell(number).first, store);
+  };
+  if (places.size() == 1) return visit(mapsOf(0), std::size_t{0});
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cell(a) < cell(b); });
+  for (std::size_t k = 0; k < order.size();) {
+    const CellMaps maps = mapsOf(order[k]);
+    const auto here = cell(order[k]);
+    for (; k < order.size() && cell(order[k]) == here; ++k) visit(maps, order[k]);
+  }
 }
 
 /// The layer at (u, v) in [0, 1] of the position's patch, given those maps.
@@ -243,6 +262,23 @@ void addMaps(const Layer& layer, const CellMaps& maps, const Position& position,
   sums.error += triangleError(layer, maps, acrossCell(southWest.i, southWest.u, shift),
                               acrossCell(southWest.j, southWest.v, shift),
                               side / static_cast<double>(std::int64_t{1} << shift));
+}
+
+SurfacePoint surfacePoint(const Position& place, const SquareSums& sums, double n, double spacing) {
+  const double x = place.u * n, y = place.v * n;
+  const auto drawn = [&](std::size_t corner) {
+    return static_cast<double>(static_cast<float>(sums.corners[corner]));
+  };
+  const SquareHeights heights{drawn(0), drawn(1), drawn(2), drawn(3)};
+  const TrianglePoint triangle = sampleTriangle(heights, x - std::floor(x), y - std::floor(y));
+  SurfacePoint point;
+  point.height = sums.height;
+  point.drawn = triangle.height;
+  point.normal = faceNormal(triangle, spacing);
+  const double largest = std::max({std::fabs(heights.southWest), std::fabs(heights.southEast),
+                                   std::fabs(heights.northWest), std::fabs(heights.northEast), 1.0});
+  point.error = sums.error + largest * 0x1p-23;  // drawn heights are floats; sums in double round far less
+  return point;
 }
 
 }  // namespace
@@ -315,46 +351,55 @@ double World::deviation() const noexcept {
 }
 
 double World::height(const Position& position) const {
-  double sum = 0.0;
+  double height = 0.0;
+  heights({&position, 1}, {&height, 1});
+  return height;
+}
+
+void World::heights(std::span<const Position> places, std::span<double> heights) const {
+  assert(places.size() == heights.size());
+  std::fill(heights.begin(), heights.end(), 0.0);
   for (std::size_t index = 0; index < layers_.size(); ++index) {
     const Layer& layer = layers_[index];
     if (layer.field() != nullptr) {
-      sum += static_cast<double>(FieldSamples<1>(layer, position).heights[0]);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        heights[k] += static_cast<double>(FieldSamples<1>(layer, places[k]).heights[0]);
+      }
       continue;
     }
-    const CellMaps maps = mapsAround(layer, static_cast<int>(index), position, *queryMaps_);
-    sum += heightInPatch(layer, maps, position, position.u, position.v);
+    forEachByCell(layer, static_cast<int>(index), places, *queryMaps_,
+                  [&](const CellMaps& maps, std::size_t k) {
+                    heights[k] += heightInPatch(layer, maps, places[k], places[k].u, places[k].v);
+                  });
   }
-  return sum;
 }
 
 SurfacePoint World::query(const Position& position) const {
+  SurfacePoint point;
+  query({&position, 1}, {&point, 1});
+  return point;
+}
+
+void World::query(std::span<const Position> places, std::span<SurfacePoint> points) const {
+  assert(places.size() == points.size());
   const double n = intervals_;
-  const double x = position.u * n, y = position.v * n;
-  const Position southWest{position.i, position.j, std::floor(x) / n, std::floor(y) / n};
-  SquareSums sums;
+  std::vector<SquareSums> sums(places.size());
+  const auto southWest = [&](const Position& place) {
+    return Position{place.i, place.j, std::floor(place.u * n) / n, std::floor(place.v * n) / n};
+  };
   for (std::size_t index = 0; index < layers_.size(); ++index) {
     const Layer& layer = layers_[index];
     if (layer.field() != nullptr) {
-      addField(layer, position, southWest, sums);
-    } else {
-      const CellMaps maps = mapsAround(layer, static_cast<int>(index), position, *queryMaps_);
-      addMaps(layer, maps, position, southWest, 1.0 / n, sums);
+      for (std::size_t k = 0; k < places.size(); ++k)
+        addField(layer, places[k], southWest(places[k]), sums[k]);
+      continue;
     }
+    forEachByCell(layer, static_cast<int>(index), places, *queryMaps_,
+                  [&](const CellMaps& maps, std::size_t k) {
+                    addMaps(layer, maps, places[k], southWest(places[k]), 1.0 / n, sums[k]);
+                  });
   }
-  const auto drawn = [&](std::size_t corner) {
-    return static_cast<double>(static_cast<float>(sums.corners[corner]));
-  };
-  const SquareHeights heights{drawn(0), drawn(1), drawn(2), drawn(3)};
-  const TrianglePoint triangle = sampleTriangle(heights, x - std::floor(x), y - std::floor(y));
-  SurfacePoint point;
-  point.height = sums.height;
-  point.drawn = triangle.height;
-  point.normal = faceNormal(triangle, spacing(0));
-  const double largest = std::max({std::fabs(heights.southWest), std::fabs(heights.southEast),
-                                   std::fabs(heights.northWest), std::fabs(heights.northEast), 1.0});
-  point.error = sums.error + largest * 0x1p-23;  // drawn heights are floats; sums in double round far less
-  return point;
+  for (std::size_t k = 0; k < places.size(); ++k) points[k] = surfacePoint(places[k], sums[k], n, spacing(0));
 }
 
 }  // namespace teren

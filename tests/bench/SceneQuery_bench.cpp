@@ -11,6 +11,7 @@
 
 #include "teren/Hash.h"
 #include "teren/SceneQuery.h"
+#include "teren/World.h"
 
 #include "stream/Sweep.h"
 #include "tests/bench/MedianReporter.h"
@@ -213,6 +214,29 @@ void make(benchmark::State& state, const std::shared_ptr<const Scene>& scene, bo
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene->meshes().size()));
 }
 
+/// Heights of the landscape's function, in the standard world, at 4,096 of the places, which leap about in
+/// 300 patches.
+void function(benchmark::State& state, const std::vector<Position>& places, bool atOnce) {
+  const auto world = World::create(WorldDescription::standard(), *PluginRegistry::standard());
+  if (!world) return state.SkipWithError(world.error().message.c_str());
+  std::vector<Position> near(places.begin(), places.begin() + 4096);
+  for (Position& place : near) {
+    place.i /= 8;
+    place.j /= 8;
+  }
+  std::vector<double> heights(near.size());
+  (*world)->heights(near, heights);  // makes the maps
+  for (auto _ : state) {
+    if (atOnce) {
+      (*world)->heights(near, heights);
+    } else {
+      for (std::size_t k = 0; k < near.size(); ++k) heights[k] = (*world)->height(near[k]);
+    }
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(near.size()));
+}
+
 int runAll(int argc, char** argv) {
   if (!initializeRepeated(argc, argv)) return 2;
   const auto mixed = mixedScene(), even = evenScene(2);
@@ -241,6 +265,12 @@ int runAll(int argc, char** argv) {
     add("make", [&, scene = scene](benchmark::State& state) { make(state, scene, false); });
     add("make-again", [&, scene = scene](benchmark::State& state) { make(state, scene, true); });
   }
+  for (const bool atOnce : {true, false}) {
+    benchmark::RegisterBenchmark(
+        atOnce ? "function/at-once" : "function/single",
+        [&, atOnce](benchmark::State& state) { function(state, everywhere, atOnce); })
+        ->Unit(benchmark::kMicrosecond);
+  }
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   const double places = static_cast<double>(kPlaces);
@@ -257,6 +287,8 @@ int runAll(int argc, char** argv) {
                 reporter.median(std::string("every-triangle") + name) / 4.0);
     reporter.printRatio("single", "scattered", 0.0, name);
   }
+  reporter.printRatio("function/single", "function/at-once", 0.0);
+  std::printf("a place of the function, us: %.2f\n", reporter.median("function/at-once") / 4096.0);
   return 0;
 }
 

@@ -2,6 +2,7 @@
 // and for every thread, as rough between lattice points as at them (law 3).
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -184,6 +185,53 @@ TEST(World, GivesEveryRouteToAPointTheSameBits) {
       ASSERT_EQ(other->height(direct), height) << "another world of the same description";
     }
   }
+}
+
+/// Places that leap between far cells of every layer, some the same; of a world with a field among its
+/// layers.
+struct ManyPlaces {
+  ManyPlaces() {
+    LayerDescription field;
+    field.generator = "value-noise";
+    field.pitch = 256.0;
+    world = makeTestWorld(worldOf({fault(64.0, 4.0), field, fault(1024.0, 40.0)}));
+    RandomSequence random(93);
+    for (int k = 0; k < 300; ++k) {
+      const std::int64_t far = k % 2 == 0 ? 1000 : -1000;
+      places.push_back({far + below(random, 20), far - below(random, 20), uniform(random), uniform(random)});
+      if (k % 7 == 0) places.push_back(places[places.size() / 2]);
+    }
+  }
+  std::shared_ptr<const World> world;
+  std::vector<Position> places;
+};
+
+TEST(World, AnswersManyPlacesAtOnceAsOneByOne) {
+  const ManyPlaces many;
+  std::vector<double> heights(many.places.size());
+  many.world->heights(many.places, heights);
+  std::vector<SurfacePoint> points(many.places.size());
+  many.world->query(many.places, points);
+  for (std::size_t k = 0; k < many.places.size(); ++k) {
+    const SurfacePoint expected = many.world->query(many.places[k]);
+    ASSERT_EQ(heights[k], many.world->height(many.places[k]));
+    ASSERT_EQ(points[k].height, expected.height);
+    ASSERT_EQ(points[k].drawn, expected.drawn);
+    ASSERT_EQ(points[k].normal, expected.normal);
+    ASSERT_EQ(points[k].error, expected.error);
+  }
+  many.world->heights({}, {});
+  many.world->query(std::span<const Position>{}, {});
+}
+
+TEST(World, MakesNoMapTwiceForPlacesThatLeapBetweenCellsThatDoNotFitTogether) {
+  const auto world = makeTestWorld(worldOf({noise(64.0, 4.0, 2049)}));  // four maps are more than is kept
+  std::vector<Position> places;
+  for (int k = 0; k < 8; ++k) places.push_back({k % 2 * 100, 0, 0.125 * k, 0.5});
+  std::vector<double> heights(places.size());
+  const int before = noiseMapsBegun();
+  world->heights(places, heights);
+  EXPECT_EQ(noiseMapsBegun() - before, 8);
 }
 
 TEST(World, AnswersManyThreadsWithTheSameBits) {
