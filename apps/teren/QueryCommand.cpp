@@ -1,5 +1,8 @@
 // teren query WORLD X Y [X Y]... [--json]: heights, normals and error bounds at points.
+#include <algorithm>
+#include <cstddef>
 #include <iostream>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,6 +17,8 @@ namespace teren {
 namespace {
 
 constexpr int kMostArguments = 1 << 24;
+/// Points asked before the next look whether a plugin has failed.
+constexpr std::size_t kAtOnce = 1024;
 
 struct TypedPoint {
   double x = 0.0, y = 0.0;
@@ -73,8 +78,11 @@ class QueryCommand final : public Command {
     std::vector<Position> positions;
     for (const TypedPoint& point : points.value()) positions.push_back(point.position);
     std::vector<SurfacePoint> surfaces(positions.size());
-    (*world)->query(positions, surfaces);
-    if (const auto code = failWith(**world, "there is no answer")) return *code;
+    for (std::size_t first = 0; first < positions.size(); first += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, positions.size() - first);
+      (*world)->query(std::span(positions).subspan(first, count), std::span(surfaces).subspan(first, count));
+      if (const auto code = failWith(**world, "there is no answer")) return *code;
+    }
     answer(points.value(), surfaces);
     complainAbout(**world);
     return kSuccess;

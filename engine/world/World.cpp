@@ -194,11 +194,19 @@ void forEachByCell(const Layer& layer, int index, std::span<const Position> plac
   if (places.size() == 1) return visit(mapsOf(0), std::size_t{0});
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cell(a) < cell(b); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cell(a) < cell(b); });
+  std::vector<std::span<const std::size_t>> cells;  // the places of each
   for (std::size_t k = 0; k < order.size();) {
-    const CellMaps maps = mapsOf(order[k]);
-    const auto here = cell(order[k]);
-    for (; k < order.size() && cell(order[k]) == here; ++k) visit(maps, order[k]);
+    const std::size_t first = k;
+    while (k < order.size() && cell(order[k]) == cell(order[first])) ++k;
+    cells.push_back(std::span(order).subspan(first, k - first));
+  }
+  // In the order in which they were asked for, as one by one: what fails first is told first.
+  std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.front() < b.front(); });
+  for (const std::span<const std::size_t> numbers : cells) {
+    const CellMaps maps = mapsOf(numbers.front());
+    for (const std::size_t number : numbers) visit(maps, number);
   }
 }
 
