@@ -97,8 +97,8 @@ class World {
   /// are held while it is asked, so that any world can be.
   double height(const Position& position) const;
   /// The same, of many valid places; both spans have the same length (assert). Makes no map twice in a call,
-  /// however many cells they are in and in whatever order, and looks each up once: about a third of the time
-  /// of single calls where places leap about.
+  /// however many cells they are in and in whatever order, and looks each up once: 1.6 times as fast as
+  /// single calls where places leap about (bench-scene-query).
   void heights(std::span<const Position> places, std::span<double> heights) const;
   static constexpr std::size_t kQueryBytes = std::size_t{64} << 20;
 
