@@ -5,11 +5,13 @@
 #include <numbers>
 #include <utility>
 
+#include <Inventor/SbLine.h>
 #include <Inventor/SbVec2f.h>
 #include <Inventor/SbVec2s.h>
+#include <Inventor/SbVec3d.h>
+#include <Inventor/SbVec3f.h>
+#include <Inventor/SbViewVolume.h>
 #include <Inventor/SbViewportRegion.h>
-#include <Inventor/SoPickedPoint.h>
-#include <Inventor/actions/SoRayPickAction.h>
 #include <Inventor/nodes/SoPerspectiveCamera.h>
 #include <Inventor/nodes/SoSeparator.h>
 
@@ -75,20 +77,21 @@ double TerrainStage::water() const {
   return std::isfinite(level) ? std::max(level, kDry) : kDry;
 }
 
-std::optional<SbVec3f> TerrainStage::pick(const SbVec2f& point, const SbVec2s& size) const {
-  SoRayPickAction action{SbViewportRegion(size)};
-  action.setNormalizedPoint(point);
-  action.apply(root_);
-  const SoPickedPoint* picked = action.getPickedPoint();
-  if (picked == nullptr) return std::nullopt;
-  return picked->getPoint();
-}
-
-std::optional<Position> TerrainStage::positionOf(const SbVec3f& point) const {
-  const Result<Position> position =
-      zero_.movedBy(static_cast<double>(point[0]), static_cast<double>(point[1]), pitch_);
-  if (!position) return std::nullopt;
-  return *position;
+Ray TerrainStage::sight(const SbVec2f& point, const SbVec2s& size) const {
+  SbViewportRegion seen;
+  SbLine line;
+  camera_->SoCamera::getViewVolume(SbViewportRegion(size), seen).projectPointToLine(point, line);
+  const SbVec3d begin(line.getPosition()), way(line.getDirection());
+  Ray ray;
+  ray.length = static_cast<double>(camera_->farDistance.getValue());
+  ray.height = begin[2];
+  ray.direction = {way[0], way[1], way[2]};
+  if (const Result<Position> from = zero_.movedBy(begin[0], begin[1], pitch_)) {
+    ray.from = *from;
+  } else {
+    ray.length = 0.0;  // beyond the world's end there is nothing to see
+  }
+  return ray;
 }
 
 }  // namespace teren

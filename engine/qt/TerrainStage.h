@@ -2,12 +2,10 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-
-#include <Inventor/SbVec3f.h>
 
 #include "teren/Position.h"
 #include "teren/Scene.h"
+#include "teren/SceneQuery.h"
 
 #include "qt/Viewer.h"
 
@@ -41,11 +39,9 @@ class TerrainStage {
   /// [m] The water's surface; far below all ground where there is none.
   double water() const;
 
-  /// The nearest triangle behind a point of a picture of `size` pixels, from (0, 0) at its lower left corner
-  /// to (1, 1): its place in the scene.
-  std::optional<SbVec3f> pick(const SbVec2f& point, const SbVec2s& size) const;
-  /// The place in the world of a point of the scene; empty beyond its end.
-  std::optional<Position> positionOf(const SbVec3f& point) const;
+  /// The way of sight behind a point of a picture of `size` pixels, from (0, 0) at its lower left corner to
+  /// (1, 1), to the end of what the camera sees; its direction is about 1 long.
+  Ray sight(const SbVec2f& point, const SbVec2s& size) const;
 
  private:
   SoSeparator* root_;  // referenced

@@ -329,11 +329,15 @@ std::optional<GroundPoint> TerrainWidget::pick(const QPoint& point) const {
   const SbVec2f place((static_cast<float>(inside.x()) + 0.5F) / width,
                       1.0F - (static_cast<float>(inside.y()) + 0.5F) / height);
   const SbVec2s size(static_cast<short>(canvas->width()), static_cast<short>(canvas->height()));
-  const std::optional<SbVec3f> picked = private_->stage.pick(place, size);
-  if (!picked) return std::nullopt;
-  const std::optional<Position> position = private_->stage.positionOf(*picked);
+  if (!private_->engine) return std::nullopt;
+  const Ray sight = private_->stage.sight(place, size);
+  RayHit hit;
+  private_->engine->sceneQuery()->firstHits({&sight, 1}, {&hit, 1});
+  if (hit.end != RayEnd::ground) return std::nullopt;
+  const Result<Position> position = sight.from.movedBy(
+      hit.way * sight.direction[0], hit.way * sight.direction[1], private_->engine->world().pitch());
   if (!position) return std::nullopt;
-  return GroundPoint{*position, static_cast<double>((*picked)[2])};
+  return GroundPoint{*position, sight.height + hit.way * sight.direction[2]};
 }
 
 EngineFigures TerrainWidget::figures() const {

@@ -82,7 +82,7 @@ class TerrainWidget : public QWidget {
   double eyeHeight() const noexcept;
 
   /// The ground that is seen at a point of the widget; empty where there is sky. Water is never picked: what
-  /// comes back lies below it. Costs about a millisecond.
+  /// comes back lies below it; nor is, for the moment until a new world has something to show, the old one.
   std::optional<GroundPoint> pick(const QPoint& point) const;
 
   /// All zero before the first world.
