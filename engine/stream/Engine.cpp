@@ -132,7 +132,6 @@ std::shared_ptr<const SceneQuery> Engine::State::sceneQuery() const {
 }
 
 std::optional<double> Engine::State::drawnHeight(const Position& position) const {
-  if (!position.valid()) return std::nullopt;
   DrawnPoint point;
   sceneQuery()->points({&position, 1}, {&point, 1});
   return point.there ? std::optional(point.height) : std::nullopt;

@@ -457,7 +457,7 @@ bool Streamer::startCalibration() {
 
 bool Streamer::isSettled() const {
   if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty() || mayRefine_) return false;
-  if (missing_ == 0) return true;
+  if (missing_ == 0 && !lacksRoom_) return true;
   // A calibration under way gives its room back.
   return calibration_ == 0 && (lacksRoom_ || !hasRoomFor(std::max(buildBytes_, 2 * nodes_.piecesBytes())));
 }
