@@ -291,7 +291,7 @@ std::size_t NodeStore::borderBytes() const {
       if (i == -1 || i == 2 || j == -1 || j == 2) around.push_back({0, i, j});
     }
   }
-  return BorderPlan({1, 0, 0}, around, intervals_).bytes() + kBytesPerPiece;
+  return BorderPlan({1, 0, 0}, around, intervals_).bytes() + kBytesPerPiece + kBytesPerBorder;
 }
 
 }  // namespace teren

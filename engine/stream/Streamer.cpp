@@ -185,8 +185,8 @@ void Streamer::chooseDetail(const std::vector<NodeKey>& ground, const Motion& ey
 }
 
 std::size_t Streamer::detailBytes() const noexcept {
-  // About half of what a border on all sides towards finer nodes takes, and as much in the renderer.
-  const std::size_t border = 2 * nodes_.borderBytes() / 2;
+  // About half of what a border on all sides towards finer nodes takes, and as much again in the renderer.
+  const std::size_t border = nodes_.borderBytes();
   const std::size_t leaves = selection_->leaves(), above = selection_->nodes().size() - leaves;
   return leaves * (nodes_.drawnBytes() + nodes_.piecesBytes() + border) + above * nodes_.heldBytes();
 }
