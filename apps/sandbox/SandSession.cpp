@@ -73,19 +73,19 @@ void SandSession::setSlides(bool on) {
 }
 
 ToolPlace SandSession::inside(const ToolPlace& place) const noexcept {
-  const double margin = tool_->reach() + 2.0 * sandbox_->surface().step();
-  const auto within = [margin](double at, double side) {
-    return 2.0 * margin < side ? std::clamp(at, margin, side - margin) : 0.5 * side;
-  };
-  return {within(place.x, width()), within(place.y, depth()), place.height};
+  return {std::clamp(place.x, 0.0, width()), std::clamp(place.y, 0.0, depth()), place.height};
 }
 
 Result<void> SandSession::check(const ToolPlace& place) const {
   const ToolPlace near = inside(place);
-  if (near.x != place.x || near.y != place.y || tool_->reach() * 2.0 >= std::min(width(), depth())) {
+  if (near.x != place.x || near.y != place.y) {
     return Error{"the tool at (" + numberText(place.x) + ", " + numberText(place.y) +
-                 ") reaches beyond the sand, which is " + numberText(width()) + " x " + numberText(depth()) +
-                 " m: it must be at least " + numberText(tool_->reach()) + " m away from the border"};
+                 ") lies beyond the sand, which is " + numberText(width()) + " x " + numberText(depth()) +
+                 " m"};
+  }
+  if (2.0 * tool_->reach() >= std::min(width(), depth())) {
+    return Error{"the tool reaches " + numberText(tool_->reach()) + " m around, too far for sand of " +
+                 numberText(width()) + " x " + numberText(depth()) + " m"};
   }
   if (place.height && !(std::fabs(*place.height) <= kHighest)) {
     return Error{"a tool's height is " + numberText(*place.height) +

@@ -73,10 +73,10 @@ class SandSession {
   void setSlides(bool on);
   bool slides() const noexcept { return slides_; }
 
-  /// The nearest place at which the tool stays within the box; the middle where it is too large.
+  /// The nearest place of the box. What of the tool reaches beyond it is cut off (Stamper).
   ToolPlace inside(const ToolPlace& place) const noexcept;
-  /// Begins an action: the tool is pressed straight in, and held at that height. Refused where its reach
-  /// would go beyond the box, or a number is not finite.
+  /// Begins an action: the tool is pressed straight in, and held at that height. Refused where its middle
+  /// would lie beyond the box, it is as wide as the box, or a number is not finite.
   Result<void> press(const ToolPlace& place);
   /// Drags the tool on, at `speed` >= 0 [m/s] that the spacing of stamps follows. Nothing where no tool is
   /// pressed in, or the place is nearer than the spacing.

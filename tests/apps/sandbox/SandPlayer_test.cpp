@@ -127,10 +127,10 @@ TEST(SandPlayer, StopsAtAFailureAndNamesItsLine) {
   for (const Case& one : {
            Case{"undo\n", "line 1: there is nothing to take back", kWrongInput},
            Case{"stamp 0.5 0.5\nredo\n", "line 2: there is nothing to do again", kWrongInput},
-           Case{"stamp 0.5 0.5\n\nstamp 0.01 0.5\n", "line 3: the tool at (0.01, 0.5) reaches beyond",
+           Case{"stamp 0.01 0.5\n\nstamp 1.01 0.5\n", "line 3: the tool at (1.01, 0.5) lies beyond",
                 kWrongInput},
-           Case{"drag 0.5 0.5 to 2 0.5\n", "line 1: the tool at (2, 0.5) reaches beyond", kWrongInput},
-           Case{"tool square size=5\nstamp 0.5 0.5\n", "line 2: the tool", kWrongInput},
+           Case{"drag 0.5 0.5 to 2 0.5\n", "line 1: the tool at (2, 0.5) lies beyond", kWrongInput},
+           Case{"tool square size=5\nstamp 0.5 0.5\n", "line 2: the tool reaches", kWrongInput},
            Case{"load /no/such/sand\n", "line 1: ", kWrongInput},
            Case{"load /\n", "line 1: ", kWrongInput},
            Case{"save /no/such/folder/sand\n", "line 1: ", kWorkFailed},

@@ -188,11 +188,11 @@ TEST(SandSession, ChangesOfTheAngleInARowAreOneAction) {
   EXPECT_FALSE(session.undo());
 }
 
-TEST(SandSession, RefusesPlacesThatTheToolWouldReachBeyondOrThatAreNoNumbers) {
+TEST(SandSession, RefusesPlacesBeyondTheSandOrThatAreNoNumbers) {
   SandSession session(ground());
   const std::uint64_t before = hashOf(session);
   for (const ToolPlace& place :
-       {ToolPlace{0.01, 0.5, {}}, ToolPlace{0.5, 0.99, {}}, ToolPlace{-1.0, 0.5, {}},
+       {ToolPlace{-0.01, 0.5, {}}, ToolPlace{0.5, 1.01, {}}, ToolPlace{-1.0, 0.5, {}},
         ToolPlace{1e300, 0.5, {}}, ToolPlace{kNan, 0.5, {}}, ToolPlace{0.5, kNan, {}},
         ToolPlace{kInfinity, 0.5, {}}, ToolPlace{0.5, 0.5, kNan}, ToolPlace{0.5, 0.5, kInfinity},
         ToolPlace{0.5, 0.5, -1e5}}) {
@@ -205,6 +205,18 @@ TEST(SandSession, RefusesPlacesThatTheToolWouldReachBeyondOrThatAreNoNumbers) {
   EXPECT_FALSE(session.press({0.5, 0.5, {}})) << "no room for it anywhere";
   rest(session);
   EXPECT_EQ(hashOf(session), before);
+}
+
+TEST(SandSession, DigsThroughTheBorder) {
+  SandSession session(ground());
+  const double before = session.groundHeight(1.0, 0.5);
+  ASSERT_TRUE(session.press({0.7, 0.5, {}}));
+  ASSERT_TRUE(session.dragTo({1.0, 0.5, {}}, 0.1));
+  session.release();
+  rest(session);
+  EXPECT_LT(session.groundHeight(1.0, 0.5), before - 0.01);
+  EXPECT_TRUE(session.takeMessages().empty());
+  EXPECT_TRUE(session.sandbox().surface().validate());
 }
 
 TEST(SandSession, KeepsTheToolInTheHandWhereAnotherCannotBe) {

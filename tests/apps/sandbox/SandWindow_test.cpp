@@ -135,7 +135,7 @@ TEST_F(SandWindowEvents, BesideTheSandAndBeyondItsBorderHarmNothing) {
   EXPECT_EQ(hash(), begin_) << "pressed down beside the sand";
   drag(seen(0.9, 0.5), {795, 3});
   EXPECT_TRUE(settle());
-  EXPECT_NE(hash(), begin_) << "dragged over the border, the tool stays inside";
+  EXPECT_NE(hash(), begin_) << "dragged over the border, the tool digs to it";
   EXPECT_TRUE(session_->sandbox().surface().validate());
   mouse(QEvent::MouseMove, seen(0.5, 0.5), Qt::NoButton);
   mouse(QEvent::MouseButtonRelease, seen(0.5, 0.5), Qt::LeftButton);

@@ -190,7 +190,7 @@ TEST_F(Sandbox, RefusesHostileScriptsInOneSentence) {
       "stamp 0.5 1e999\n",
       "tool polygon outline=\"\"\n",
       "tool polygon outline=\"0,0 1,1 1,0 0,1\"\n",
-      "sand 1500\nstamp 0.001 0.5\n",
+      "sand 1500\nstamp 1.001 0.5\n",
       "sand 1500\ndrag 0.5 0.5 to 900 900\n",
       "load " + file("script.txt") + "\n",
       "load /dev/zero\n",
@@ -205,7 +205,7 @@ TEST_F(Sandbox, RefusesHostileScriptsInOneSentence) {
 }
 
 TEST_F(Sandbox, EndsAWindowWhoseScriptFails) {
-  expectOneSentence(run("--script " + script("sand 500\nstamp 0.5 0.5\nstamp 0.001 0.5\n")), 2,
+  expectOneSentence(run("--script " + script("sand 500\nstamp 0.5 0.5\nstamp 1.001 0.5\n")), 2,
                     "off the edge");
   expectOneSentence(run("--script " + script("sand 500\nscreenshot /no/such/folder/a.png\n")), 1,
                     "no folder");
