@@ -16,6 +16,7 @@
 #include "teren/Engine.h"
 
 #include "tests/engine/stream/FaultWorld.h"
+#include "tests/engine/stream/NodeErrorsWait.h"
 
 namespace teren {
 namespace {
@@ -221,6 +222,8 @@ TEST_P(Detail, HoldsTheCapAtEveryMomentAndPaysWithPixelError) {
 
 TEST_P(Detail, ComesAndGoesWithThePixelErrorTheDistanceAndThePicture) {
   DetailFlight flight(GetParam());
+  flight.engine->settle();
+  ASSERT_TRUE(test::measureNodeErrors(*flight.engine)) << "what is chosen changes with what is known";
   flight.engine->settle();
   const std::size_t before = flight.engine->figures().nodes;
   const auto nodesWith = [&](const DetailSettings& detail) {
