@@ -1,12 +1,19 @@
 #include "coin/FieldEngine.h"
 
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "teren/Position.h"
 #include "teren/World.h"
 
 namespace teren {
+namespace {
+
+// A viewer that moves its clipping planes makes the same angle from other numbers each time.
+constexpr double kSameAngle = 1e-3;
+
+}  // namespace
 
 Result<void> FieldEngine::make(const TerrainFields& fields) {
   Result<std::unique_ptr<Engine>> made = makeEngine(fields);
@@ -16,7 +23,7 @@ Result<void> FieldEngine::make(const TerrainFields& fields) {
   eye_ = eye.get();
   engine_->add(std::move(eye));
   putEye(point_);
-  fitPicture(lines_, fieldOfView_);
+  static_cast<void>(tellPicture());
   return {};
 }
 
@@ -32,14 +39,21 @@ void FieldEngine::putEye(const SbVec3d& point) {
   if (position) eye_->put(*position, point[2]);
 }
 
-void FieldEngine::fitPicture(double lines, double fieldOfView) {
-  lines_ = lines;
-  fieldOfView_ = fieldOfView;
-  if (!engine_ || !engine_->options().view.detail) return;
+bool FieldEngine::fitPicture(double lines, double fieldOfView) {
+  const bool asBefore = lines == lines_ && std::fabs(fieldOfView - fieldOfView_) <= kSameAngle * fieldOfView_;
+  if (!asBefore) {
+    lines_ = lines;
+    fieldOfView_ = fieldOfView;
+  }
+  return !asBefore && tellPicture();
+}
+
+bool FieldEngine::tellPicture() {
+  if (!engine_ || !engine_->options().view.detail) return false;
   DetailSettings detail = *engine_->options().view.detail;
-  detail.lines = lines;
-  detail.fieldOfView = fieldOfView;
-  static_cast<void>(engine_->setDetail(detail));
+  detail.lines = lines_;
+  detail.fieldOfView = fieldOfView_;
+  return engine_->setDetail(detail).ok();
 }
 
 bool FieldEngine::update(double dt, std::chrono::nanoseconds budget) {

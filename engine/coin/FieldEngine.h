@@ -30,8 +30,8 @@ class FieldEngine {
   void putEye(const SbVec3d& point);
 
   /// The picture [px] and the angle [radian] it shows, which detail by error depends on; what cannot be is
-  /// ignored. They outlive the engine.
-  void fitPicture(double lines, double fieldOfView);
+  /// ignored. They outlive the engine. True where other detail is wanted now.
+  bool fitPicture(double lines, double fieldOfView);
 
   /// One update of the engine (there must be one); whether it should be followed by another although the eye
   /// stands still.
@@ -43,6 +43,7 @@ class FieldEngine {
   SbBox3f expectedBox(const SbVec3d& origin) const;
 
  private:
+  bool tellPicture();
   std::unique_ptr<Engine> engine_;
   EyeObject* eye_ = nullptr;  // the engine's
   SbVec3d point_{0.0, 0.0, 0.0};

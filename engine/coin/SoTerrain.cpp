@@ -471,7 +471,8 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
     private_->makeEngineIfFieldsChanged();
     private_->followEye(teren::eyePosition(state));
     if (const std::optional<double> angle = teren::fieldOfView(state)) {
-      private_->source.fitPicture(SoViewportRegionElement::get(state).getViewportSizePixels()[1], *angle);
+      const int lines = SoViewportRegionElement::get(state).getViewportSizePixels()[1];
+      if (private_->source.fitPicture(lines, *angle)) private_->armTimer();
     }
   }
   teren::Picture picture = private_->look(state);

@@ -144,15 +144,18 @@ void ErrorCalibration::finishLevel() {
   const Moments errors = momentsOf(kSamples, error);
   if (errors.mean > 0.0) {
     RelativeFit fit;
+    const double least = errors.mean / 8.0;  // next to nothing is not to outweigh all the rest
     for (int k = 0; k < kSamples; ++k) {
-      // Next to nothing is not to outweigh all the rest.
-      fit.add(samples_[static_cast<std::size_t>(k)].bend, std::max(error(k), errors.mean / 8.0));
+      fit.add(samples_[static_cast<std::size_t>(k)].bend, std::max(error(k), least));
     }
     const Line line = fit.line();
-    const auto ratio = [&](int k) { return error(k) / line.at(samples_[static_cast<std::size_t>(k)].bend); };
+    const auto ratio = [&](int k) {
+      return error(k) / std::max(line.at(samples_[static_cast<std::size_t>(k)].bend), least);
+    };
     const Moments ratios = momentsOf(kSamples, ratio);
     const Moments rests = momentsOf(kSamples, [&](int k) {
-      const double share = samples_[static_cast<std::size_t>(k)].rest / error(k);
+      // A flat node has no error of which a part could be inherited.
+      const double share = error(k) > 0.0 ? samples_[static_cast<std::size_t>(k)].rest / error(k) : 0.0;
       return share * share;
     });
     // The finer nodes' largest errors scatter too, in proportion to their part.

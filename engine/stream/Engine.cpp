@@ -12,6 +12,7 @@
 
 #include "stream/ObjectSet.h"
 #include "stream/Streamer.h"
+#include "world/NodeErrors.h"
 
 namespace teren {
 
@@ -60,12 +61,10 @@ Result<void> check(const DetailSettings& detail) {
 Result<void> check(const EngineOptions& options, const World& world) {
   if (options.view.detail) {
     if (Result<void> checked = check(*options.view.detail); !checked) return checked;
-  }
-  if (options.view.level < 0 || options.view.level > world.topLevel()) {
+  } else if (options.view.level < 0 || options.view.level > world.topLevel()) {
     return outside("the view's level", options.view.level,
                    "0 to " + std::to_string(world.topLevel()) + ", the world's top level");
-  }
-  if (options.view.radius < 1 || options.view.radius > ViewSettings::kMostRadius) {
+  } else if (options.view.radius < 1 || options.view.radius > ViewSettings::kMostRadius) {
     return outside("the view's radius", options.view.radius,
                    "1 to " + std::to_string(ViewSettings::kMostRadius) + " nodes");
   }
@@ -106,6 +105,7 @@ struct Engine::State final : Ground {
   ObjectSet objects;
   std::shared_ptr<const Scene> scene;
   mutable std::shared_ptr<const SceneQuery> query;  // of `scene` once somebody has asked
+  mutable int queryLevels = 0;                      // whose errors it tells were measured
   std::size_t sceneTriangles = 0;
   std::chrono::nanoseconds lastUpdate{0};
 
@@ -120,7 +120,8 @@ struct Engine::State final : Ground {
 };
 
 std::shared_ptr<const SceneQuery> Engine::State::sceneQuery() const {
-  if (query->scene() != scene) {
+  if (query->scene() != scene || queryLevels != world->nodeErrors().nextToCalibrate()) {
+    queryLevels = world->nodeErrors().nextToCalibrate();
     std::vector<float> errors;
     errors.reserve(scene->meshes().size());
     for (const auto& mesh : scene->meshes()) {
@@ -147,6 +148,11 @@ std::optional<double> Engine::State::height(const Position& position) const {
 
 void Engine::State::publish() {
   if (streamer.nodes().serial() == scene->serial()) return;
+  if (query->scene() != scene) {  // nobody asks now: it is not to keep what is drawn no more
+    query = std::make_shared<const SceneQuery>(
+        std::make_shared<const Scene>(0, world->spacing(0), std::vector<std::shared_ptr<const Mesh>>{}),
+        world->intervals());
+  }
   scene = streamer.nodes().snapshot();
   sceneTriangles = scene->triangles();
 }

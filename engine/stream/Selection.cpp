@@ -35,25 +35,34 @@ int Selection::rootLevelFor(double distance, double pitch, int topLevel) noexcep
   return level;
 }
 
-void Selection::choose(std::span<const Viewer> viewers, double tolerance) {
+bool Selection::choose(std::span<const Viewer> viewers, double tolerance, std::size_t most) {
   assert(tolerance >= 1.0);
   viewers_.assign(viewers.begin(), viewers.end());
   const int top = static_cast<int>(ground_.errors.size()) - 1;
   double farthest = 0.0;
   for (const Viewer& viewer : viewers_) farthest = std::max(farthest, viewer.detail.distance);
-  rootLevel_ = std::max(rootLevel_, rootLevelFor(farthest, ground_.pitch, top));
+  rootLevel_ = std::max(rootLevel_, rootLevelFor(farthest, ground_.pitch, std::min(top, ground_.coarsest)));
   for (Splits& level : splits_) level.clear();
   splits_.resize(static_cast<std::size_t>(top) + 1);
   findRoots();
-  for (const auto& [root, urgency] : roots_) split(root, tolerance);
-  balance();
   nodes_.clear();
   leaves_ = 0;
-  for (const auto& [root, urgency] : roots_) list(root, std::numeric_limits<double>::infinity());
+  left_ = most / 3;  // a node that is split makes three leaves more
+  const auto splitAsWanted = [&](const auto& root) { return split(root.first, tolerance); };
+  if (!std::all_of(roots_.begin(), roots_.end(), splitAsWanted) || !balance()) return false;
+  for (const auto& [root, urgency] : roots_) list(root, rootUrgency(root));
   std::sort(nodes_.begin(), nodes_.end(), [](const SelectedNode& a, const SelectedNode& b) {
     return std::tuple(-a.urgency, -a.key.level, a.key.j, a.key.i) <
            std::tuple(-b.urgency, -b.key.level, b.key.j, b.key.i);
   });
+  return true;
+}
+
+double Selection::rootUrgency(const NodeKey& root) const {
+  constexpr double kBeforeAllElse = 1e18;  // no error is seen as large
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Viewer& viewer : viewers_) nearest = std::min(nearest, distance(viewer, root));
+  return kBeforeAllElse / (1.0 + nearest);
 }
 
 void Selection::keep() {
@@ -99,19 +108,21 @@ double Selection::seen(const NodeKey& key) const {
   return most;
 }
 
-void Selection::split(const NodeKey& key, double tolerance) {
-  if (key.level == 0) return;
+bool Selection::split(const NodeKey& key, double tolerance) {
+  if (key.level == 0) return true;
   const double error = seen(key);
-  if (!(error > tolerance * (before_.contains(key) ? kStaysSplit : 1.0))) return;
+  if (!(error > tolerance * (before_.contains(key) ? kStaysSplit : 1.0))) return true;
+  if (left_-- == 0) return false;
   splits_[static_cast<std::size_t>(key.level)].emplace(key, error);
   for (int child = 0; child < 4; ++child) {
-    split({key.level - 1, key.i * 2 + (child & 1), key.j * 2 + (child >> 1)}, tolerance);
+    if (!split({key.level - 1, key.i * 2 + (child & 1), key.j * 2 + (child >> 1)}, tolerance)) return false;
   }
+  return true;
 }
 
 /// Where a node is split, all that touch it must be there or finer, so what is above them is split too, and
 /// no less urgently.
-void Selection::balance() {
+bool Selection::balance() {
   for (int level = 0; level < rootLevel_; ++level) {
     Splits& above = splits_[static_cast<std::size_t>(level) + 1];
     for (const auto& [key, urgency] : splits_[static_cast<std::size_t>(level)]) {
@@ -121,10 +132,12 @@ void Selection::balance() {
           if (!roots_.contains(parent.ancestor(rootLevel_))) continue;
           const auto [place, isNew] = above.emplace(parent, urgency);
           place->second = std::max(place->second, urgency);
+          if (isNew && left_-- == 0) return false;
         }
       }
     }
   }
+  return true;
 }
 
 void Selection::list(const NodeKey& key, double urgency) {

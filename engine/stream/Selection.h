@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -45,6 +46,7 @@ class Selection {
     double pitch = 64.0;           ///< [m]
     double low = 0.0, high = 0.0;  ///< [m] heights
     std::vector<double> errors;  ///< [m] of nodes by level, from level 0 (the finest drawn) to the top level
+    int coarsest = std::numeric_limits<int>::max();  ///< level that roots may have; the top level at most
   };
   explicit Selection(Ground ground) : ground_(std::move(ground)) {}
 
@@ -52,8 +54,10 @@ class Selection {
   /// As many as before.
   void setErrors(std::vector<double> errors) { ground_.errors = std::move(errors); }
 
-  /// `tolerance` >= 1 multiplies every pixel error, where memory is short.
-  void choose(std::span<const Viewer> viewers, double tolerance);
+  /// `tolerance` >= 1 multiplies every pixel error, where memory is short. False as soon as there are more
+  /// than `most` leaves beside the roots, and then nothing is chosen: so the cost is bounded.
+  bool choose(std::span<const Viewer> viewers, double tolerance,
+              std::size_t most = std::numeric_limits<std::size_t>::max());
   /// What was chosen last is what is split now, for the choices to come.
   void keep();
 
@@ -61,7 +65,7 @@ class Selection {
   std::span<const SelectedNode> nodes() const noexcept { return nodes_; }
   std::size_t leaves() const noexcept { return leaves_; }
   /// Roots are of one level: the coarsest whose side is at most half the farthest viewer's distance, and
-  /// never finer than before.
+  /// never finer than before. Among roots the nearest are the most urgent, and go before all else.
   int rootLevel() const noexcept { return rootLevel_; }
   static int rootLevelFor(double distance, double pitch, int topLevel) noexcept;
   bool isRoot(const NodeKey& key) const { return key.level == rootLevel_ && roots_.contains(key); }
@@ -78,8 +82,9 @@ class Selection {
 
   double distance(const Viewer& viewer, const NodeKey& key) const;
   void findRoots();
-  void split(const NodeKey& key, double tolerance);
-  void balance();
+  double rootUrgency(const NodeKey& root) const;
+  bool split(const NodeKey& key, double tolerance);
+  bool balance();
   void list(const NodeKey& key, double urgency);
 
   Ground ground_;
@@ -89,6 +94,7 @@ class Selection {
   std::vector<Splits> splits_;  // by level
   std::vector<SelectedNode> nodes_;
   std::size_t leaves_ = 0;
+  std::size_t left_ = 0;  // nodes that may still be split
 };
 
 }  // namespace teren

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "patch/BorderTask.h"
 #include "patch/ErrorCalibration.h"
 #include "patch/NodeTask.h"
 #include "stream/Refinement.h"
@@ -35,12 +36,24 @@ constexpr std::int64_t kGroundUrgency = -(std::int64_t{1} << 40);
 constexpr std::int64_t kJoinUrgency = -1;
 constexpr std::int64_t kCalibrationUrgency = std::int64_t{1} << 40;  // after all that is wanted
 
+/// The coarsest level of a view's roots: that any of them may lie beside level 0 (BorderTask.h).
+int coarsestRoot(const World& world) {
+  return std::min(world.topLevel(), mostLevelDifference(world.intervals()));
+}
+
+/// How many roots lie within a view's distance, at most.
+double mostRoots(const World& world, const DetailSettings& detail) {
+  const int level = Selection::rootLevelFor(detail.distance, world.pitch(), coarsestRoot(world));
+  const double across = 2.0 * std::ceil(detail.distance / (world.pitch() * std::exp2(level))) + 1.0;
+  return across * across;
+}
+
 std::size_t buildBytes(const World& world, const ViewSettings& view) {
   const std::size_t ground = NodeTask::mostBytes(world, 0);
   if (!view.detail) return std::max(ground, NodeTask::mostBytes(world, view.level));
   std::size_t most = ground;
   for (int level = 1;
-       level <= Selection::rootLevelFor(view.detail->distance, world.pitch(), world.topLevel()); ++level) {
+       level <= Selection::rootLevelFor(view.detail->distance, world.pitch(), coarsestRoot(world)); ++level) {
     most = std::max(most, NodeTask::mostBytes(world, level));
   }
   return most;
@@ -88,8 +101,8 @@ Streamer::Streamer(const World& world, const EngineOptions& options)
   if (!options.view.detail) return;
   constexpr double kDeviations = 3.0;
   const double range = kDeviations * world.deviation();
-  selection_.emplace(
-      Selection::Ground{world.pitch(), world.mean() - range, world.mean() + range, nodeErrors(world)});
+  selection_.emplace(Selection::Ground{world.pitch(), world.mean() - range, world.mean() + range,
+                                       nodeErrors(world), coarsestRoot(world)});
 }
 
 void Streamer::sizeBuilds() {
@@ -111,9 +124,9 @@ std::size_t Streamer::leastCap(const World& world, const EngineOptions& options)
   const std::size_t build = buildBytes(world, options.view);
   const std::size_t drawn = nodes.drawnBytes() + nodes.piecesBytes();
   constexpr std::size_t kGroundNodes = 9, kUniformNodes = 9;
-  constexpr std::size_t kRoots =
-      121;  // at most so many lie within their distance, which is less than four of their sides
-  const std::size_t view = options.view.detail ? kRoots : kUniformNodes + joinBatch(options.workers);
+  const std::size_t view = options.view.detail
+                               ? static_cast<std::size_t>(mostRoots(world, *options.view.detail))
+                               : kUniformNodes + joinBatch(options.workers);
   return kSlack + std::max(kLeastMapBytes, build) + 2 * build + kGroundNodes * nodes.heldBytes() +
          view * drawn;
 }
@@ -147,34 +160,43 @@ void Streamer::chooseUniform(const std::vector<NodeKey>& ground, const Position&
   cancelUnwanted();
 }
 
+bool Streamer::isViewedAsBefore(const Viewer& viewer) const {
+  if (!viewer_ || !(viewer_->detail == viewer.detail)) return false;
+  const Offset way = offset(viewer_->position, viewer.position, world_.pitch());
+  const double up = viewer.height - viewer_->height;
+  const double step =
+      kChoiceStep * world_.pitch() * std::max(1.0, static_cast<double>(wanted_.size()) / kFewNodes);
+  return way.east * way.east + way.north * way.north + up * up < step * step;
+}
+
 void Streamer::chooseDetail(const std::vector<NodeKey>& ground, const Motion& eye) {
   const Viewer viewer{eye.position, eye.height, *options_.view.detail};
   const MemoryNeeds now = needs(ground.size());
   std::vector<double> errors = nodeErrors(world_);
-  if (viewer_ && viewer_->detail == viewer.detail && needs_ == now && selection_->errors() == errors &&
-      isGroundAsBefore(ground)) {
-    const Offset way = offset(viewer_->position, viewer.position, world_.pitch());
-    const double up = viewer.height - viewer_->height;
-    const double step =
-        kChoiceStep * world_.pitch() * std::max(1.0, static_cast<double>(wanted_.size()) / kFewNodes);
-    if (way.east * way.east + way.north * way.north + up * up < step * step) return;
+  if (isViewedAsBefore(viewer) && needs_ == now && selection_->errors() == errors) {
+    if (!isGroundAsBefore(ground)) wantSelected(ground);
+    return;
   }
   viewer_ = viewer;
   needs_ = now;
   selection_->setErrors(std::move(errors));
-  const auto choose = [&](double tolerance) {
-    selection_->choose({&viewer, 1}, tolerance);
+  const auto choose = [&](double tolerance, double share) {
     tolerance_ = tolerance;
+    return selection_->choose({&viewer, 1}, tolerance, mostLeaves(now)) && fits(now, share);
   };
   const double before = tolerance_;
-  choose(std::max(before / kToleranceStep, 1.0));
-  if (!fits(now, before > 1.0 ? kShareToRefine : kShareOfCap)) choose(before);
-  while (!fits(now, kShareOfCap) && tolerance_ < kMostTolerance) choose(tolerance_ * kToleranceStep);
+  bool chosen = choose(std::max(before / kToleranceStep, 1.0), before > 1.0 ? kShareToRefine : kShareOfCap) ||
+                choose(before, kShareOfCap);
+  while (!chosen && tolerance_ < kMostTolerance) chosen = choose(tolerance_ * kToleranceStep, kShareOfCap);
+  if (!chosen) static_cast<void>(selection_->choose({&viewer, 1}, tolerance_));  // little more than the roots
   selection_->keep();
-  plan_.fits = fits(now, 1.0);
   const std::size_t used = now.fixed + detailBytes();
   plan_.mapBytes = std::clamp(now.cap - std::min(now.cap, used), now.leastMaps, now.mostMaps);
   maps_.setCapacity(plan_.mapBytes);
+  wantSelected(ground);
+}
+
+void Streamer::wantSelected(const std::vector<NodeKey>& ground) {
   std::vector<NodeKey> view;
   view.reserve(selection_->nodes().size());
   for (const SelectedNode& node : selection_->nodes()) view.push_back(node.key);
@@ -189,6 +211,11 @@ std::size_t Streamer::detailBytes() const noexcept {
   const std::size_t border = nodes_.borderBytes();
   const std::size_t leaves = selection_->leaves(), above = selection_->nodes().size() - leaves;
   return leaves * (nodes_.drawnBytes() + nodes_.piecesBytes() + border) + above * nodes_.heldBytes();
+}
+
+std::size_t Streamer::mostLeaves(const MemoryNeeds& needs) const noexcept {
+  const std::size_t taken = std::min(needs.cap, needs.fixed + needs.leastMaps);
+  return (needs.cap - taken) / nodes_.drawnBytes();
 }
 
 bool Streamer::fits(const MemoryNeeds& needs, double share) const noexcept {
@@ -398,6 +425,7 @@ bool Streamer::startRefining() {
     change(task->change(), {});
     return true;
   }
+  if (calibration_ == 0 && !hasRoomFor(2 * task->bytes())) calibrator_.reset();  // later
   lacksRoom_ = !hasRoomFor(2 * task->bytes());
   if (lacksRoom_) return false;
   joinBytes_ = task->bytes();
@@ -411,6 +439,7 @@ bool Streamer::startJoin() {
   if (toJoin_.empty()) return false;
   const std::size_t count = std::min(joinBatch(options_.workers), toJoin_.size());
   const std::size_t bytes = count * nodes_.piecesBytes();
+  if (calibration_ == 0 && !hasRoomFor(2 * bytes)) calibrator_.reset();  // later
   if (!hasRoomFor(2 * bytes)) return false;
   std::vector<NodeKey> batch;
   for (std::size_t k = 0; k < count; ++k) {
@@ -432,7 +461,7 @@ bool Streamer::startBuild() {
   if (calibration_ == 0 && !hasRoomFor(buildBytes_)) calibrator_.reset();  // later
   if (!hasRoomFor(buildBytes_)) return false;
   const bool ground = isGround(nextWanted_);
-  if (ground ? groundBuilds_ == mostGroundBuilds_ : builds_.size() - groundBuilds_ == mostViewBuilds_) {
+  if (ground ? groundBuilds_ >= mostGroundBuilds_ : builds_.size() - groundBuilds_ >= mostViewBuilds_) {
     return false;
   }
   const NodeKey& key = wanted_[nextWanted_];
@@ -446,7 +475,9 @@ bool Streamer::startBuild() {
 }
 
 bool Streamer::startCalibration() {
-  if (calibration_ != 0 || missing_ > 0 || errorsAreKnown(world_)) return false;
+  if (calibration_ != 0) return false;
+  if (errorsAreKnown(world_)) calibrator_.reset();  // by now, be it through another engine
+  if (missing_ > 0 || errorsAreKnown(world_)) return false;
   if (!calibrator_) {
     if (!hasRoomFor(calibrationBytes_)) return false;
     calibrator_ = std::make_shared<ErrorCalibration>(world_);

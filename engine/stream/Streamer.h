@@ -93,7 +93,11 @@ class Streamer {
   MemoryNeeds needs(std::size_t groundNodes) const;
   void chooseUniform(const std::vector<NodeKey>& ground, const Position& eye);
   void chooseDetail(const std::vector<NodeKey>& ground, const Motion& eye);
+  bool isViewedAsBefore(const Viewer& viewer) const;
+  void wantSelected(const std::vector<NodeKey>& ground);
   bool fits(const MemoryNeeds& needs, double share) const noexcept;
+  /// More leaves than these cannot fit.
+  std::size_t mostLeaves(const MemoryNeeds& needs) const noexcept;
   std::size_t detailBytes() const noexcept;
   void rank(const std::vector<NodeKey>& ground, std::span<const NodeKey> view);
   void planDrops();

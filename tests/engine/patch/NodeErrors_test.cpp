@@ -310,6 +310,19 @@ TEST(ErrorCalibration, GoesOnWhereAnotherOneStopped) {
   }
 }
 
+TEST(ErrorCalibration, TakesFlatNodesAmongOthersForWhatTheyAre) {
+  WorldDescription islands = single("circles", BlendKernel::smooth, nullptr, 4096.0);
+  islands.layers.front().parameters = {{"discs", 1}, {"radius", 0.05}};
+  const auto world = makeTestWorld(islands);
+  calibrate(*world);
+  for (int level = 1; level <= world->topLevel(); ++level) {
+    EXPECT_TRUE(std::isfinite(world->nodeErrors().estimate(level))) << level;
+    EXPECT_TRUE(std::isfinite(world->nodeErrors().estimate(level, 0.0))) << level;
+    EXPECT_GE(world->nodeErrors().estimate(level), 0.0) << level;
+  }
+  EXPECT_GT(world->nodeErrors().estimate(world->topLevel()), 0.0);
+}
+
 TEST(ErrorCalibration, FindsNoErrorWhereThereIsNone) {
   const auto world = makeTestWorld(single("constant"));
   calibrate(*world);

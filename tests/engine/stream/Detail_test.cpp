@@ -241,6 +241,29 @@ TEST_P(Detail, ComesAndGoesWithThePixelErrorTheDistanceAndThePicture) {
   EXPECT_GT(nodesWith({.pixelError = 30.0, .distance = 3000.0, .lines = 1500.0}), before);
 }
 
+TEST_P(Detail, LetsSnapshotsGoThatNobodyAsksAnyMore) {
+  DetailFlight flight(GetParam());
+  flight.engine->settle();
+  ASSERT_TRUE(flight.engine->drawnHeight(flight.puppet->place.position).has_value());
+  const std::weak_ptr<const Scene> asked = flight.engine->scene();
+  flight.moveTo(3e5, -2e5);
+  flight.engine->settle();
+  EXPECT_TRUE(asked.expired());
+}
+
+TEST(DetailSettings, TakeThePlaceOfLevelAndRadius) {
+  const auto world = test::faultWorld(3, 17, {64.0}, 20);
+  ASSERT_LT(world->topLevel(), ViewSettings{}.level);
+  EXPECT_TRUE(Engine::create(world, {.view = {.detail = DetailSettings{}}}).ok());
+}
+
+TEST(DetailSettings, OfALandOfMoreRootsThanTheCapHoldsAreRefused) {
+  const auto world = test::faultWorld(3, 17, {64.0}, 20);
+  const auto made = Engine::create(world, {.view = {.detail = DetailSettings{.distance = 1e6}}});
+  ASSERT_FALSE(made.ok());
+  EXPECT_NE(made.error().message.find("cap"), std::string::npos) << made.error().message;
+}
+
 TEST_P(Detail, OfALeapFarAwayLeavesNothingBehind) {
   DetailFlight flight(GetParam());
   flight.engine->settle();

@@ -97,6 +97,47 @@ TEST(Selection, CoversItsRootsOnceWithNeighboursAtMostOneLevelApart) {
   }
 }
 
+TEST(Selection, HasNoCoarserRootsThanMayLieBesideTheFinest) {
+  Selection::Ground ground = roughGround();
+  ground.coarsest = 3;
+  Selection selection(ground);
+  ASSERT_TRUE(selection.choose(std::vector{viewerAt(10.0, 20.0, 50.0, 8.0, 20'000.0)}, 1.0));
+  EXPECT_EQ(selection.rootLevel(), 3);
+  for (const SelectedNode& node : selection.nodes()) ASSERT_LE(node.key.level, 3);
+}
+
+TEST(Selection, WantsTheNearestRootsFirst) {
+  Selection::Ground ground = roughGround();
+  ground.coarsest = 3;
+  Selection selection(ground);
+  const Viewer viewer = viewerAt(10.0, 20.0, 50.0, 64.0, 20'000.0);
+  ASSERT_TRUE(selection.choose(std::vector{viewer}, 1.0));
+  double farthest = 0.0;
+  std::size_t roots = 0;
+  for (const SelectedNode& node : selection.nodes()) {
+    if (!selection.isRoot(node.key)) continue;
+    const Offset corner = offset(viewer.position, {node.key.i * 8, node.key.j * 8, 0.0, 0.0}, 64.0);
+    const double east = std::max({corner.east, -corner.east - 512.0, 0.0});
+    const double north = std::max({corner.north, -corner.north - 512.0, 0.0});
+    const double away = std::hypot(east, north);
+    EXPECT_GE(away, farthest - 1e-6);
+    farthest = std::max(farthest, away);
+    ++roots;
+  }
+  EXPECT_GT(roots, 1000U);
+}
+
+TEST(Selection, GivesUpWhereThereAreMoreNodesThanMayBe) {
+  Selection selection(roughGround());
+  const std::vector<Viewer> viewers{viewerAt(10.0, 20.0, 50.0)};
+  ASSERT_TRUE(selection.choose(viewers, 1.0));
+  const std::size_t leaves = selection.leaves();
+  EXPECT_FALSE(selection.choose(viewers, 1.0, leaves / 4));
+  EXPECT_TRUE(selection.nodes().empty());
+  EXPECT_TRUE(selection.choose(viewers, 1.0, leaves + 3));
+  EXPECT_EQ(selection.leaves(), leaves);
+}
+
 TEST(Selection, ListsTheMostUrgentFirstAndNothingBeforeWhatIsAboveIt) {
   Selection selection(roughGround());
   selection.choose(std::vector{viewerAt(0.0, 0.0, 100.0), viewerAt(9000.0, 0.0, 100.0)}, 1.0);
