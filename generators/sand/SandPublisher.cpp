@@ -106,6 +106,8 @@ std::shared_ptr<const SandSnapshot> SandPublisher::publishAll(Sandbox& sandbox) 
   vertices_.shrink(vertexPages);
   triangles_.shrink(trianglePages);
   bounds_.shrink(pagesFor<SandBoundsPage>(trianglePages));
+  const std::size_t boundsSlots = bounds_.table().size() * SandBoundsPage::kSlots;
+  for (std::size_t page = trianglePages; page < boundsSlots; ++page) setBounds(page, {});
   for (TriangleId t = 0; t < trianglePages * SandTrianglePage::kSlots; ++t) {
     const At<SandTrianglePage> at(t);
     if (at.page < triangles_.table().size()) {
@@ -142,7 +144,7 @@ void SandPublisher::take(const Triangulation& mesh, TriangleId t) {
   for (const VertexId v : copy.corners) refreshed_.add(v);
 }
 
-/// Takes the bounds of a page's triangles anew, and, where they changed, those of all pages beside it.
+/// Takes the bounds of a page's triangles anew.
 void SandPublisher::bound(std::size_t trianglePage) {
   const SandTrianglePage& page = triangles_.table()[trianglePage];
   SandBounds bounds;
@@ -152,6 +154,11 @@ void SandPublisher::bound(std::size_t trianglePage) {
       bounds.extendBy(vertices_.table()[v / SandVertexPage::kSlots].vertices[v % SandVertexPage::kSlots]);
     }
   }
+  setBounds(trianglePage, bounds);
+}
+
+/// Where a page's bounds are others than before, takes those of all pages beside it anew too.
+void SandPublisher::setBounds(std::size_t trianglePage, const SandBounds& bounds) {
   const std::size_t i = trianglePage / SandBoundsPage::kSlots, k = trianglePage % SandBoundsPage::kSlots;
   if (i < bounds_.table().size() && bounds_.table()[i].pages[k] == bounds) return;
   SandBoundsPage& all = bounds_.edit(i);

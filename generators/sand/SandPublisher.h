@@ -28,6 +28,7 @@ class SandPublisher {
  private:
   void take(const Triangulation& mesh, TriangleId t);
   void bound(std::size_t trianglePage);
+  void setBounds(std::size_t trianglePage, const SandBounds& bounds);
   std::shared_ptr<const SandSnapshot> finish(Sandbox& sandbox);
 
   PageEditor<SandVertexPage> vertices_;

@@ -126,9 +126,11 @@ std::optional<SandHit> SandSnapshot::hit(const SandRay& ray) const {
   };
   for (std::size_t g = 0; g < bounds_.size(); ++g) {
     if (!meets(sheared, frame_, bounds_[g].all, end)) continue;
-    for (std::size_t i = 0; i < SandBoundsPage::kSlots; ++i) {
+    const std::size_t firstPage = g * SandBoundsPage::kSlots;
+    const std::size_t pages = std::min(SandBoundsPage::kSlots, triangles_.size() - firstPage);
+    for (std::size_t i = 0; i < pages; ++i) {
       if (!meets(sheared, frame_, bounds_[g].pages[i], end)) continue;
-      const std::size_t first = (g * SandBoundsPage::kSlots + i) * SandTrianglePage::kSlots;
+      const std::size_t first = (firstPage + i) * SandTrianglePage::kSlots;
       for (std::size_t t = first; t < first + SandTrianglePage::kSlots; ++t)
         lookAt(static_cast<TriangleId>(t));
     }

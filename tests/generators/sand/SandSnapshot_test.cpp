@@ -113,6 +113,28 @@ Content contentOf(const SandSnapshot& snapshot) {
   return content;
 }
 
+/// How a snapshot differs from one that a new publisher makes, or nothing; empty pages may follow.
+std::string differenceFromNew(Sandbox sandbox, const SandSnapshot& copy) {
+  SandPublisher publisher;
+  const Shared fresh = publisher.publishAll(sandbox);
+  const Content expected = contentOf(*fresh);
+  Content content = contentOf(copy);
+  const std::size_t pages = expected.triangles.size();
+  for (std::size_t i = 0; i < content.triangles.size(); ++i) {
+    if (copy.bounds(i) != (i < pages ? fresh->bounds(i) : SandBounds{}))
+      return "page " + std::to_string(i) + " has other bounds";
+  }
+  const SandVertexPage noVertices{};
+  const SandTrianglePage noTriangles{};
+  while (content.vertices.size() > expected.vertices.size() && content.vertices.back() == noVertices)
+    content.vertices.pop_back();
+  while (content.triangles.size() > pages && content.triangles.back() == noTriangles)
+    content.triangles.pop_back();
+  if (content.vertices != expected.vertices) return "the vertices differ";
+  if (content.triangles != expected.triangles) return "the triangles differ";
+  return copy.bounds() == fresh->bounds() ? "" : "all bounds differ";
+}
+
 /// Sand, a publisher and random moves.
 class Game {
  public:
@@ -164,7 +186,11 @@ TEST(SandSnapshot, EqualsAnotherSurfaceThatHasTakenThePlaceOfTheFirst) {
   Game game(77, 3'000), other(78, 400);
   game.publish();
   game.sandbox() = other.sandbox();
-  ASSERT_EQ(difference(game.surface(), *game.publishAll()), "");
+  const Shared taken = game.publishAll();
+  ASSERT_EQ(difference(game.surface(), *taken), "");
+  ASSERT_EQ(differenceFromNew(game.sandbox(), *taken), "");
+  EXPECT_TRUE(taken->hit({{0.5, 0.5, 2.0}, {0.0, 0.0, -1.0}}));
+  EXPECT_FALSE(taken->hit({{0.5, 0.5, 2.0}, {0.0, 0.0, 1.0}}));
   game.move();
   ASSERT_EQ(difference(game.surface(), *game.publish()), "");
 }
