@@ -132,7 +132,8 @@ bool SandState::mark(Sandbox& sandbox) {
   return once;
 }
 
-void SandState::assign(Sandbox& sandbox, const Sections& sections) {
+/// All but the marks of what is listed.
+void SandState::copy(Sandbox& sandbox, const Sections& sections) {
   Numbers numbers;
   std::memcpy(&numbers, sections[kNumbers].data(), sizeof numbers);
   assert(numbers.frame == sandbox.surface_.mesh_.frame_);
@@ -140,7 +141,21 @@ void SandState::assign(Sandbox& sandbox, const Sections& sections) {
   forEachArray(sandbox, [&](Section section, auto& array) {
     assignArray(sandbox, array, section, sections[section]);
   });
+}
+
+/// Adds the triangles at changed vertices, as every change does. The mesh must be proved.
+void SandState::noteStars(Sandbox& sandbox) {
+  const Triangulation& mesh = sandbox.surface_.mesh();
+  for (const VertexId v : sandbox.changedVertices().ids()) {
+    if (!mesh.isVertex(v)) continue;
+    mesh.forEachCorner(v, [&](Link at) { sandbox.changedTriangles_.add(at.triangle()); });
+  }
+}
+
+void SandState::assign(Sandbox& sandbox, const Sections& sections) {
+  copy(sandbox, sections);
   mark(sandbox);
+  noteStars(sandbox);
 }
 
 Result<Sandbox> SandState::sandboxOf(const Sections& sections) {
@@ -151,7 +166,7 @@ Result<Sandbox> SandState::sandboxOf(const Sections& sections) {
     if (const Result<void> fine = checked(numbers, sections); !fine) return fine.error();
   }
   Sandbox sandbox(SandSurface(numbers.frame, 0.0, 0.0), numbers.settings);
-  assign(sandbox, sections);
+  copy(sandbox, sections);
   sandbox.changedVertices_ = sandbox.changedTriangles_ = {};
   if (!mark(sandbox)) return Error{"something in it waits twice"};
   if (const Result<void> fine = check(sandbox); !fine) return fine.error();

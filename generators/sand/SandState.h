@@ -55,9 +55,9 @@ class SandState {
   /// Nothing is in the lists of what changed: whoever draws begins anew.
   static Result<Sandbox> sandboxOf(const Sections& sections);
 
-  /// Gives a sandbox the sections of another state of the same box. Slots that lie on pages that differ are
-  /// added to its lists of what changed, those that are no more included. O(bytes) to compare, and to copy
-  /// O(pages that differ).
+  /// Gives a sandbox the sections of another state of the same box, as a SandState had them. Slots that lie
+  /// on pages that differ are added to its lists of what changed, those that are no more and the triangles at
+  /// such vertices included. O(bytes) to compare, and to copy O(pages that differ).
   static void assign(Sandbox& sandbox, const Sections& sections);
 
  private:
@@ -84,6 +84,8 @@ class SandState {
   template <class Array>
   static void assignArray(Sandbox& sandbox, Array& array, Section section, std::span<const std::byte> bytes);
   static void noteSlots(Sandbox& sandbox, Section section, std::size_t from, std::size_t end);
+  static void copy(Sandbox& sandbox, const Sections& sections);
+  static void noteStars(Sandbox& sandbox);
   static bool mark(Sandbox& sandbox);
 
   // SandStateCheck.cpp

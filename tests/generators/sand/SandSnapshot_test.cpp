@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "generators/sand/LevelSand.h"
+#include "generators/sand/SandHistory.h"
 #include "generators/sand/SandPublisher.h"
 #include "tests/generators/sand/Heaps.h"
 
@@ -203,6 +204,24 @@ TEST(SandSnapshot, EqualsSandThatHasBeenPutBack) {
   ASSERT_NE(difference(before.surface(), *game.publish()), "");
   game.sandbox() = before;
   ASSERT_EQ(difference(game.surface(), *game.publishAll()), "");
+}
+
+TEST(SandSnapshot, EqualsTheSurfaceAfterUndoAndRedo) {
+  for (std::uint64_t seed = 91; seed < 95; ++seed) {
+    Game game(seed, 2'000);
+    SandHistory history(std::size_t{1} << 30);
+    const auto follows = [&] { return differenceFromNew(game.sandbox(), *game.publish()); };
+    ASSERT_EQ(follows(), "");
+    for (int action = 0; action < 10; ++action) {
+      history.note(game.sandbox());
+      for (int n = 0; n < 3; ++n) game.move();
+      ASSERT_EQ(follows(), "") << "action " << action << ", seed " << seed;
+    }
+    int undone = 0;
+    for (; history.undo(game.sandbox()); ++undone) ASSERT_EQ(follows(), "") << undone << ", seed " << seed;
+    ASSERT_GT(undone, 5);
+    for (; history.redo(game.sandbox()); --undone) ASSERT_EQ(follows(), "") << undone << ", seed " << seed;
+  }
 }
 
 TEST(SandSnapshot, SharesAllPagesWhereNothingChanged) {
