@@ -91,7 +91,8 @@ std::size_t pagesFor(std::size_t slots) noexcept {
 }  // namespace
 
 std::shared_ptr<const SandSnapshot> SandPublisher::publish(Sandbox& sandbox) {
-  if (!published_) return publishAll(sandbox);
+  if (!last_) return publishAll(sandbox);
+  if (sandbox.changedTriangles().ids().empty() && sandbox.changedVertices().ids().empty()) return last_;
   const Triangulation& mesh = sandbox.surface().mesh();
   for (const TriangleId t : sandbox.changedTriangles().ids()) take(mesh, t);
   for (const VertexId v : sandbox.changedVertices().ids()) refreshed_.add(v);
@@ -124,10 +125,9 @@ std::shared_ptr<const SandSnapshot> SandPublisher::publishAll(Sandbox& sandbox) 
       if (last == plainVertex(surface, v)) continue;
     }
     refreshed_.add(v);
-    if (!published_ || !mesh.isVertex(v)) continue;
+    if (!last_ || !mesh.isVertex(v)) continue;
     mesh.forEachCorner(v, [&](Link corner) { take(mesh, corner.triangle()); });
   }
-  published_ = true;
   std::shared_ptr<const SandSnapshot> snapshot = finish(sandbox);
   refreshed_ = {};  // as long as the mesh perhaps
   return snapshot;
@@ -191,7 +191,8 @@ std::shared_ptr<const SandSnapshot> SandPublisher::finish(Sandbox& sandbox) {
   triangles_.seal();
   bounds_.seal();
   sandbox.forgetChanges();
-  return snapshot;
+  last_ = std::move(snapshot);
+  return last_;
 }
 
 std::size_t SandPublisher::bytes() const noexcept {

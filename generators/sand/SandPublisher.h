@@ -14,9 +14,9 @@ namespace teren {
 /// the sandbox's thread: two would take the lists away from each other. What it hands out is for any thread.
 class SandPublisher {
  public:
-  /// The sandbox as it is; its lists of changes are empty afterwards. Copies the pages that the lists name
-  /// and those of vertices around, whose normals change: O(pages touched + slots / 16384). The first time
-  /// publishAll().
+  /// The sandbox as it is; its lists of changes are empty afterwards, and where they were so before, the last
+  /// snapshot is the answer, in O(1). Copies the pages that the lists name and those of vertices around,
+  /// whose normals change: O(pages touched + slots / 16384). The first time publishAll().
   std::shared_ptr<const SandSnapshot> publish(Sandbox& sandbox);
   /// The same whatever the lists say: after another sandbox has taken this one's place. Looks everywhere for
   /// what differs and copies that. O(n); where little differs, a tenth of the first time.
@@ -34,7 +34,7 @@ class SandPublisher {
   PageEditor<SandVertexPage> vertices_;
   PageEditor<SandTrianglePage> triangles_;
   PageEditor<SandBoundsPage> bounds_;
-  bool published_ = false;
+  std::shared_ptr<const SandSnapshot> last_;
   ChangeList refreshed_;  // vertices that may look different
 };
 

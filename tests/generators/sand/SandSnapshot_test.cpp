@@ -267,6 +267,21 @@ TEST(SandSnapshot, StaysAsItWasPublished) {
   for (std::size_t n = 0; n < kept.size(); ++n) EXPECT_TRUE(contentOf(*kept[n]) == contents[n]) << n;
 }
 
+TEST(SandSnapshot, IsTheSameObjectUntilSomethingChanges) {
+  Sandbox sandbox(levelSand(900, 0.2, 0), {});
+  SandPublisher publisher;
+  const Shared first = publisher.publish(sandbox);
+  EXPECT_TRUE(publisher.publish(sandbox) == first);
+  ASSERT_TRUE(sandbox.stamp(*ToolShape::disc(0.05, 0.1), {0.5, 0.5}));
+  EXPECT_FALSE(publisher.publish(sandbox) == first);
+  for (int n = 0; n < 20; ++n) sandbox.iterate(100'000);
+  const Shared atRest = publisher.publish(sandbox);
+  for (int n = 0; n < 50; ++n) {
+    sandbox.iterate(20'000);
+    ASSERT_TRUE(publisher.publish(sandbox) == atRest) << n;
+  }
+}
+
 /// How many pages a tool as large as so many vertices touches, on average.
 double pagesTouched(int vertices) {
   Sandbox sandbox(levelSand(vertices, 1.0, 1'000), {});
