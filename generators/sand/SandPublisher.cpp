@@ -21,15 +21,18 @@ double lengthOf(const Arrow& a) noexcept {
   return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
+/// Upwards where there is no direction.
 std::array<std::int16_t, 2> packed(const Arrow& sum) noexcept {
   const double length = lengthOf(sum);
+  if (!(length > 0.0)) return {0, 0};
   const auto part = [length](double of) {
     return static_cast<std::int16_t>(std::floor(of / length * 32767.0 + 0.5));
   };
   return {part(sum[0]), part(sum[1])};
 }
 
-/// The mean of the normals of the faces at v, weighted by their angles there.
+/// The mean of the normals of the faces at v, weighted by their angles there, but for faces too thin to have
+/// any.
 std::array<std::int16_t, 2> normalAt(const SandSurface& surface, VertexId v) {
   const Triangulation& mesh = surface.mesh();
   const LatticePoint p = mesh.point(v);
@@ -43,8 +46,10 @@ std::array<std::int16_t, 2> normalAt(const SandSurface& surface, VertexId v) {
     const std::array<VertexId, 3>& corners = mesh.corners(at.triangle());
     const Arrow b = arrowTo(corners[following(at.side())]), c = arrowTo(corners[preceding(at.side())]);
     const Arrow cross{b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]};
+    const double doubledArea = lengthOf(cross);
+    if (!(doubledArea > 0.0)) return;
     const double cosine = (b[0] * c[0] + b[1] * c[1] + b[2] * c[2]) / (lengthOf(b) * lengthOf(c));
-    const double weight = angleOf(cosine) / lengthOf(cross);
+    const double weight = angleOf(cosine) / doubledArea;
     for (std::size_t i = 0; i < 3; ++i) sum[i] += weight * cross[i];
   });
   return packed(sum);

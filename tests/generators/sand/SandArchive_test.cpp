@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "generators/sand/SandPublisher.h"
 #include "generators/sand/SandState.h"
 #include "tests/generators/sand/RandomGame.h"
 
@@ -314,6 +316,9 @@ TEST(SandArchive, ForgedAtRandomIsRefusedOrPlaysOn) {
       ++played;
       RandomGame game = original;
       game.sandbox() = *std::move(sandbox);
+      SandPublisher publisher;
+      const std::shared_ptr<const SandSnapshot> shown = publisher.publish(game.sandbox());
+      ASSERT_EQ(shown->triangleCount(), game.sandbox().surface().mesh().triangleCount());
       for (int moves = 0; moves < 20; ++moves) game.play(tools);
       const Result<void> sound = game.sandbox().surface().validate();
       ASSERT_TRUE(sound) << sound.error().message << " after flips in section " << section << ", seed "

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -279,6 +280,31 @@ TEST(SandSnapshot, IsTheSameObjectUntilSomethingChanges) {
   for (int n = 0; n < 50; ++n) {
     sandbox.iterate(20'000);
     ASSERT_TRUE(publisher.publish(sandbox) == atRest) << n;
+  }
+}
+
+/// Its faces are so thin that products of their sides differ by less than rounding.
+TEST(SandSnapshot, HasOneNormalOnAPlaneHoweverThinItsFacesAre) {
+  const LatticeFrame frame = boxOf(28, 0x1p-20);
+  const std::vector<LatticePoint> points{{0, 0},
+                                         {frame.width, 0},
+                                         {frame.width, frame.height},
+                                         {0, frame.height},
+                                         {200'000'000, 199'999'999},
+                                         {200'000'001, 200'000'000}};
+  std::vector<double> heights;
+  for (const LatticePoint p : points) heights.push_back(p.x * 0x1p-21);
+  SandSurface surface(frame, points, heights, 0.0);
+  const TriangleId hint = surface.mesh().triangleAt(0);
+  surface.constrain(0, surface.insert(points[5], hint), 1);
+  surface.constrain(0, surface.insert(points[4], hint), 1);
+  Sandbox sandbox(std::move(surface), {});
+  SandPublisher publisher;
+  const Shared sand = publisher.publish(sandbox);
+  for (VertexId v = 0; v < sand->vertexSlots(); ++v) {
+    if (!sand->vertex(v).isThere()) continue;
+    EXPECT_NEAR(sand->vertex(v).normal[0], -32767.0 * std::sqrt(0.2), 2.0) << v;
+    EXPECT_NEAR(sand->vertex(v).normal[1], 0.0, 2.0) << v;
   }
 }
 
