@@ -94,8 +94,22 @@ Result<void> SandSession::check(const ToolPlace& place) const {
   return {};
 }
 
+Result<void> SandSession::checkRoom(double stamps) const {
+  if (stamps > static_cast<double>(kMostStampsOfADrag)) {
+    return Error{"a drag from place to place takes " + numberText(std::ceil(stamps)) +
+                 " stamps, expected at most " + std::to_string(kMostStampsOfADrag) +
+                 "; take a larger tool or go a shorter way"};
+  }
+  if (static_cast<double>(waiting_.size()) + std::ceil(stamps) > static_cast<double>(kMostWaiting)) {
+    return Error{"there are " + std::to_string(waiting_.size()) + " stamps waiting, and more than " +
+                 std::to_string(kMostWaiting) + " cannot; take a larger tool or drag less at once"};
+  }
+  return {};
+}
+
 Result<void> SandSession::press(const ToolPlace& place) {
   if (const Result<void> fine = check(place); !fine) return fine;
+  if (const Result<void> fine = checkRoom(1.0); !fine) return fine;
   const LatticeFrame& frame = sandbox_->surface().mesh().frame();
   const StampPlace at{frame.x + place.x, frame.y + place.y, place.height.value_or(0.0)};
   waiting_.push_back({tool_, at, place.height.has_value(), true});
@@ -112,7 +126,9 @@ Result<void> SandSession::dragTo(const ToolPlace& place, double speed) {
   };
   const double spacing = stampSpacing(speed, *tool_);
   const double x = place.x - held_->x, y = place.y - held_->y;
-  if (x * x + y * y < spacing * spacing) return {};
+  const double stamps = std::sqrt(x * x + y * y) / spacing;
+  if (stamps < 1.0) return {};
+  if (const Result<void> fine = checkRoom(stamps); !fine) return fine;
   for (const StampPlace& stamp : stampsAlong(at(*held_), at(place), spacing)) {
     waiting_.push_back({tool_, stamp, place.height.has_value(), false});
   }

@@ -50,6 +50,9 @@ struct SandFigures {
 class SandSession {
  public:
   static constexpr std::uint64_t kStepsPerBeat = 20'000;
+  static constexpr std::size_t kMostStampsOfADrag = std::size_t{1}
+                                                    << 16;           // from place to place: stampsAlong()'s
+  static constexpr std::size_t kMostWaiting = std::size_t{1} << 18;  // stamps
   using Over = std::function<bool()>;
 
   /// Begins with sand of these settings at once.
@@ -76,10 +79,11 @@ class SandSession {
   /// The nearest place of the box. What of the tool reaches beyond it is cut off (Stamper).
   ToolPlace inside(const ToolPlace& place) const noexcept;
   /// Begins an action: the tool is pressed straight in, and held at that height. Refused where its middle
-  /// would lie beyond the box, it is as wide as the box, or a number is not finite.
+  /// would lie beyond the box, it is as wide as the box, a number is not finite, or kMostWaiting stamps wait.
   Result<void> press(const ToolPlace& place);
   /// Drags the tool on, at `speed` >= 0 [m/s] that the spacing of stamps follows. Nothing where no tool is
-  /// pressed in, or the place is nearer than the spacing.
+  /// pressed in, or the place is nearer than the spacing. Refused as press() is, and where it takes more than
+  /// kMostStampsOfADrag stamps; the tool is then still where it was.
   Result<void> dragTo(const ToolPlace& place, double speed);
   void release() noexcept { held_.reset(); }
 
@@ -122,6 +126,7 @@ class SandSession {
   };
 
   Result<void> check(const ToolPlace& place) const;
+  Result<void> checkRoom(double stamps) const;
   bool resting() const noexcept;
   void receive();
   void step();

@@ -207,6 +207,40 @@ TEST(SandSession, RefusesPlacesBeyondTheSandOrThatAreNoNumbers) {
   EXPECT_EQ(hashOf(session), before);
 }
 
+TEST(SandSession, RefusesDragsOfMoreStampsThanItWillKeep) {
+  SandGround large = ground();
+  large.side = 10.0;
+  SandSession session(large);
+  ASSERT_TRUE(session.setTool(toolOf({{"size", 0.01}, {"depth", 0.001}})));
+  ASSERT_TRUE(session.press({1.0, 1.0, {}}));
+  bool there = true;
+  std::size_t most = 0;
+  for (int n = 0; n < 500 && there; ++n) {
+    const Result<void> dragged = session.dragTo({n % 2 == 0 ? 9.0 : 1.0, 1.0, {}}, 1000.0);
+    there = static_cast<bool>(dragged);
+    most = session.figures().waiting;
+    if (!there) {
+      EXPECT_NE(dragged.error().message.find("waiting"), std::string::npos);
+    }
+  }
+  EXPECT_FALSE(there);
+  EXPECT_LE(most, SandSession::kMostWaiting);
+  EXPECT_GT(most, SandSession::kMostWaiting / 2);
+}
+
+TEST(SandSession, RefusesADragWhoseStampsWouldLieTooFarApart) {
+  SandGround large = ground();
+  large.side = 1000.0;
+  SandSession session(large);
+  ASSERT_TRUE(session.setTool(toolOf({{"size", 0.01}, {"depth", 0.001}})));
+  ASSERT_TRUE(session.press({1.0, 1.0, {}}));
+  const Result<void> dragged = session.dragTo({900.0, 1.0, {}}, 1000.0);
+  ASSERT_FALSE(dragged);
+  EXPECT_NE(dragged.error().message.find("65536"), std::string::npos) << dragged.error().message;
+  EXPECT_EQ(session.figures().waiting, 1U);
+  EXPECT_TRUE(session.dragTo({2.0, 1.0, {}}, 1000.0));
+}
+
 TEST(SandSession, DigsThroughTheBorder) {
   SandSession session(ground());
   const double before = session.groundHeight(1.0, 0.5);
