@@ -62,8 +62,9 @@ Result<void> SandSession::setTool(const Values& values) {
 void SandSession::setRepose(double angle, double moisture) {
   finishBeat();
   if (angle == repose() && moisture == this->moisture()) return;
-  if (!settingNoted_) note();
-  settingNoted_ = true;
+  const bool joins = waiting_.empty() ? held_.has_value() : !waiting_.front().begins;
+  if (!joins && !settingNoted_) note();
+  settingNoted_ = !joins;
   sandbox_->setRepose(angle, moisture);
 }
 

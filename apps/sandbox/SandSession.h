@@ -69,7 +69,8 @@ class SandSession {
   const Values& toolValues() const noexcept { return toolValues_; }
   const ToolShape& tool() const noexcept { return *tool_; }
 
-  /// Another angle of repose [degree] 1 ... 60, and moisture 0 ... 1: an action. Nothing where they are so.
+  /// Another angle of repose [degree] 1 ... 60, and moisture 0 ... 1: an action, or part of the drag that
+  /// goes on. Nothing where they are so.
   void setRepose(double angle, double moisture);
   double repose() const noexcept { return sandbox_->settings().dryAngle; }
   double moisture() const noexcept { return sandbox_->settings().moisture; }

@@ -188,6 +188,40 @@ TEST(SandSession, ChangesOfTheAngleInARowAreOneAction) {
   EXPECT_FALSE(session.undo());
 }
 
+TEST(SandSession, AChangeOfTheAngleDuringADragIsPartOfIt) {
+  SandSession session(ground());
+  const std::uint64_t before = hashOf(session);
+  ASSERT_TRUE(session.press({0.2, 0.5, {}}));
+  ASSERT_TRUE(session.dragTo({0.4, 0.5, {}}, 0.5));
+  rest(session);
+  session.setRepose(20.0, 0.0);
+  ASSERT_TRUE(session.dragTo({0.6, 0.5, {}}, 0.5));
+  workTo(session, session.figures().beat + 1, true);
+  session.setRepose(25.0, 0.0);
+  session.release();
+  rest(session);
+  const std::uint64_t after = hashOf(session);
+  session.setRepose(10.0, 0.0);
+  rest(session);
+  EXPECT_TRUE(session.undo());
+  EXPECT_EQ(hashOf(session), after) << "a change after the drag is an action of its own";
+  EXPECT_TRUE(session.undo());
+  EXPECT_EQ(hashOf(session), before);
+  EXPECT_EQ(session.repose(), 30.0);
+  EXPECT_FALSE(session.undo());
+}
+
+TEST(SandSession, AChangeOfTheAngleBeforeADragBeginsIsAnActionOfItsOwn) {
+  SandSession session(ground());
+  drag(session, {0.2, 0.5, {}}, {0.4, 0.5, {}});
+  session.setRepose(20.0, 0.0);
+  rest(session);
+  EXPECT_TRUE(session.undo());
+  EXPECT_EQ(session.repose(), 20.0);
+  EXPECT_TRUE(session.undo());
+  EXPECT_EQ(session.repose(), 30.0);
+}
+
 TEST(SandSession, RefusesPlacesBeyondTheSandOrThatAreNoNumbers) {
   SandSession session(ground());
   const std::uint64_t before = hashOf(session);
