@@ -158,13 +158,23 @@ bool SandSession::redo() {
 }
 
 void SandSession::bring(std::function<Result<Sandbox>()> maker) {
-  if (arriving_.valid()) arriving_.wait();
-  arriving_ = std::async(std::launch::async, std::move(maker));
+  if (arriving()) {
+    next_ = std::move(maker);
+  } else {
+    arriving_ = std::async(std::launch::async, std::move(maker));
+  }
 }
 
 Result<void> SandSession::await() {
-  if (!arriving_.valid()) return {};
+  Result<void> came;
+  while (arriving()) came = takeArrived();
+  return came;
+}
+
+/// Waits for the sand that is made now; what was asked for since is begun then.
+Result<void> SandSession::takeArrived() {
   Result<Sandbox> sand = arriving_.get();
+  if (next_) bring(std::exchange(next_, nullptr));
   if (!sand) return sand.error();
   adopt(std::move(sand));
   return {};
@@ -196,7 +206,7 @@ void SandSession::work(const Over& over) {
 /// Takes the sand that has come, or waits for it a moment.
 void SandSession::receive() {
   if (arriving_.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) return;
-  if (const Result<void> came = await(); !came) messages_.push_back(came.error().message);
+  if (const Result<void> came = takeArrived(); !came) messages_.push_back(came.error().message);
 }
 
 void SandSession::finishBeat() {

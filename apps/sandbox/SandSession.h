@@ -93,12 +93,13 @@ class SandSession {
   bool redo();
 
   /// Sand made or loaded by `maker` on another thread takes the place of what is here when it is there, and
-  /// nothing can be taken back then; what fails is a message. Until then nothing is computed.
+  /// nothing can be taken back then; what fails is a message. Until then nothing is computed. Asked for again
+  /// meanwhile, it begins with the last maker asked for when the running one is done.
   void bring(std::function<Result<Sandbox>()> maker);
   bool arriving() const noexcept { return arriving_.valid(); }
   /// How many have come; other sand, other size.
   std::uint64_t sands() const noexcept { return sands_; }
-  /// Waits for it. The error that a message would have told.
+  /// Waits for all of it. The error that the last message would have told.
   Result<void> await();
 
   /// Nothing is left to compute, and no sand is on its way.
@@ -130,6 +131,7 @@ class SandSession {
   Result<void> checkRoom(double stamps) const;
   bool resting() const noexcept;
   void receive();
+  Result<void> takeArrived();
   void step();
   void beginBeat();
   void stampNext();
@@ -155,6 +157,7 @@ class SandSession {
   double slideTime_ = 0.0;
 
   std::future<Result<Sandbox>> arriving_;
+  std::function<Result<Sandbox>()> next_;  // to be begun after that
   std::uint64_t sands_ = 0;
   std::vector<std::string> messages_;
 };

@@ -30,6 +30,7 @@ constexpr std::chrono::milliseconds kBetweenIdleTicks(16);
 constexpr std::chrono::milliseconds kBetweenFigures(150);
 constexpr std::size_t kFramesAtLeast = 4;  // before the first ones the window may still have another size
 constexpr std::size_t kFramesShown = 30;   // that the time in the panel looks back
+constexpr const char* kOnItsWay = "the sand is still on its way, try again when it is there";
 const SbColor kBackground(0.80F, 0.86F, 0.92F);
 
 double seconds(SandWindow::Clock::duration duration) {
@@ -102,7 +103,7 @@ SandPanelActions SandWindow::panelActions() {
   actions.takeTool = [this](const Values& values) { takeTool(values); };
   actions.setSand = [this](const Values& values) { setSand(values); };
   actions.makeNewSand = [this](const Values& values) {
-    session_.bring([ground = SandGround::from(values)]() -> Result<Sandbox> { return makeSand(ground); });
+    bring([ground = SandGround::from(values)]() -> Result<Sandbox> { return makeSand(ground); });
   };
   actions.undo = [this] { act(SandAction::undo); };
   actions.redo = [this] { act(SandAction::redo); };
@@ -281,15 +282,23 @@ void SandWindow::setSand(const Values& values) {
 }
 
 void SandWindow::save(const std::string& file) {
+  if (session_.arriving()) return complain(kOnItsWay);
   session_.finishBeat();
   tell(saveSand(file, session_.sandbox()), "saved " + file);
 }
 
 void SandWindow::load(const std::string& file) {
-  session_.bring([file] { return loadSand(file); });
+  bring([file] { return loadSand(file); });
+}
+
+/// In place of what is here, but not of the sand to begin with while that is on its way.
+void SandWindow::bring(std::function<Result<Sandbox>()> maker) {
+  if (beginning_) return complain(kOnItsWay);
+  session_.bring(std::move(maker));
 }
 
 void SandWindow::exportTo(const std::string& file) {
+  if (session_.arriving()) return complain(kOnItsWay);
   session_.finishBeat();
   tell(exportObj(file, session_.sandbox()), "exported " + file);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -52,7 +53,8 @@ class SandWindow : public QWidget, public SandStage {
   const std::optional<Error>& error() const noexcept { return error_; }
   ExitCode failure() const noexcept { return failure_; }
 
-  /// As the buttons do once a file is named; what fails is said in the panel and on standard error.
+  /// As the buttons do once a file is named; what fails is said in the panel and on standard error. While
+  /// sand is on its way, none is saved or exported; while that to begin with is, none is loaded either.
   void save(const std::string& file);
   void load(const std::string& file);
   void exportTo(const std::string& file);
@@ -116,6 +118,7 @@ class SandWindow : public QWidget, public SandStage {
   void scaleTool(const char* parameter, double factor);
   void nextTool();
   void setSand(const Values& values);
+  void bring(std::function<Result<Sandbox>()> maker);
   void chooseAndSave();
   void chooseAndLoad();
   void chooseAndExport();

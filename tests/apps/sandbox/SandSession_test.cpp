@@ -1,8 +1,12 @@
 #include "apps/sandbox/SandSession.h"
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -354,6 +358,30 @@ TEST(SandSession, SaysWhySandDoesNotComeAndKeepsItsOwn) {
   EXPECT_EQ(session.takeMessages().size(), 0U);
   EXPECT_EQ(hashOf(session), before);
   EXPECT_TRUE(session.undo());
+}
+
+/// Makes sand when it is told to go on, or says that it was not told.
+std::function<Result<Sandbox>()> whenTold(const std::atomic<bool>& told, const SandGround& made) {
+  return [&told, made]() -> Result<Sandbox> {
+    for (int n = 0; n < 500 && !told; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (!told) return Error{"not told"};
+    return makeSand(made);
+  };
+}
+
+TEST(SandSession, MakesSandThatIsAskedForWhileOtherSandComesAfterIt) {
+  SandSession session(ground());
+  SandGround last = ground();
+  last.vertices = 300;
+  std::atomic<bool> told = false;
+  session.bring(whenTold(told, ground(0.1)));
+  session.bring([]() -> Result<Sandbox> { return Error{"another one was asked for since"}; });
+  session.bring([last]() -> Result<Sandbox> { return makeSand(last); });
+  told = true;
+  while (session.arriving()) session.work([] { return true; });
+  EXPECT_EQ(session.takeMessages().size(), 0U);
+  EXPECT_EQ(session.sands(), 2U);
+  EXPECT_EQ(session.figures().vertices, 300U);
 }
 
 /// How far a published vertex may be from the surface's: heights are rounded to floats.

@@ -1,10 +1,13 @@
 // The window of the sandbox under keys and a mouse as the window system sends them.
 #include "apps/sandbox/SandWindow.h"
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 #include <unistd.h>
 
 #include <QApplication>
@@ -285,6 +288,47 @@ TEST_F(SandWindowEvents, MakeNewSand) {
   EXPECT_EQ(session_->figures().vertices, 900U);
   EXPECT_TRUE(canvas().rect().contains(seen(0.0, 0.0))) << "all is in view";
   EXPECT_TRUE(canvas().rect().contains(seen(3.0, 3.0)));
+}
+
+TEST_F(SandWindowEvents, SaveNoSandThatIsOnItsWayElsewhere) {
+  click("make");
+  const std::string file = (folder_ / "old").string();
+  window_->save(file);
+  EXPECT_NE(window_->panel().sentence().find("still on its way"), std::string::npos);
+  window_->exportTo(file);
+  EXPECT_FALSE(fs::exists(file));
+  EXPECT_TRUE(settle());
+  window_->save(file);
+  EXPECT_TRUE(fs::exists(file));
+}
+
+TEST_F(SandWindowEvents, BringNoOtherSandWhileTheFirstIsOnItsWay) {
+  std::atomic<bool> told = false;
+  window_.reset();
+  SandGround first;
+  first.vertices = 700;
+  session_->bring([&told, first]() -> Result<Sandbox> {
+    while (!told) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return makeSand(first);
+  });
+  window_ = std::make_unique<SandWindow>(*session_, QSize(800, 500), false);
+  window_->begin(nullptr, std::nullopt);
+  QApplication::processEvents();
+  const auto refused = [this] {
+    const bool said = window_->panel().sentence().find("still on its way") != std::string::npos;
+    window_->panel().say("");
+    return said;
+  };
+  click("make");
+  EXPECT_TRUE(refused());
+  window_->load((folder_ / "missing").string());
+  EXPECT_TRUE(refused());
+  window_->save((folder_ / "a.sand").string());
+  EXPECT_TRUE(refused());
+  told = true;
+  EXPECT_TRUE(settle());
+  EXPECT_FALSE(window_->error());
+  EXPECT_EQ(session_->figures().vertices, 700U);
 }
 
 TEST_F(SandWindowEvents, SaveAndLoadTheSameSand) {
