@@ -202,7 +202,7 @@ void SandWindow::noticeNewSand() {
   drag_ = Drag::none;
   shown_ = session_.publish();
   scene_.show(shown_);
-  dirty_ = true;
+  hideTool();
 }
 
 void SandWindow::draw(Clock::time_point begin) {

@@ -32,7 +32,8 @@ namespace teren {
 
 /// The left button drags the tool through the sand, at the height of the ground where it was pressed down;
 /// the right one (or with Shift) turns the view, the middle one (or with Control) moves it, the wheel comes
-/// nearer. Keys: SandKeys.h. Work goes on in slices between frames, so the window answers whatever slides.
+/// nearer. Keys: SandKeys.h. While a script is played, only ending and a picture are obeyed. Work goes on in
+/// slices between frames, so the window answers whatever slides.
 ///
 /// Make it after SoQt::init and delete it before SoQt::done; the session must outlive it.
 class SandWindow : public QWidget, public SandStage {
@@ -145,6 +146,7 @@ class SandWindow : public QWidget, public SandStage {
   std::uint64_t sands_ = 0;  // SandSession::sands() when the camera was placed
 
   Drag drag_ = Drag::none;
+  Qt::MouseButton dragButton_ = Qt::NoButton;  // whose release ends it
   QPoint dragFrom_;
   ToolPlace dragPlace_;         // where the tool was last
   unsigned long dragTime_ = 0;  // [ms] then

@@ -34,9 +34,10 @@ bool SandWindow::eventFilter(QObject* watched, QEvent* event) {
       mouseMoved(*static_cast<const QMouseEvent*>(event));
       return true;
     case QEvent::MouseButtonRelease:
-      endDrag();
+      if (static_cast<const QMouseEvent*>(event)->button() == dragButton_) endDrag();
       return true;
     case QEvent::Wheel:
+      if (player_ != nullptr) return true;
       camera_.approach(static_cast<const QWheelEvent*>(event)->angleDelta().y() / kWheelNotch);
       dirty_ = true;
       return true;
@@ -56,18 +57,19 @@ bool SandWindow::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-/// Keys that the panel's fields do not want.
+/// Keys that the panel's fields do not want; whoever leaves a field by Escape does not want to leave the
+/// sand.
 void SandWindow::keyPressEvent(QKeyEvent* event) {
-  if (!keyPressed(event->key(), event->modifiers().testFlag(Qt::ControlModifier)))
-    QWidget::keyPressEvent(event);
+  const bool control = event->modifiers().testFlag(Qt::ControlModifier);
+  const bool quits = sandAction(event->key(), control) == SandAction::quit;
+  if (quits || !keyPressed(event->key(), control)) QWidget::keyPressEvent(event);
 }
 
 bool SandWindow::keyPressed(int key, bool control) {
   const std::optional<SandAction> action = sandAction(key, control);
   if (!action) return false;
-  const bool harmless = *action == SandAction::quit || *action == SandAction::screenshot ||
-                        *action == SandAction::resetCamera || *action == SandAction::wireframe;
-  if (player_ == nullptr || harmless) act(*action);  // a script's result is the script's alone
+  const bool harmless = *action == SandAction::quit || *action == SandAction::screenshot;
+  if (player_ == nullptr || harmless) act(*action);  // a script's sand and pictures are the script's alone
   return true;
 }
 
@@ -178,7 +180,9 @@ std::optional<ToolPlace> SandWindow::levelAt(QPoint pixel, double height) const 
 void SandWindow::mousePressed(const QMouseEvent& event) {
   if (drag_ != Drag::none) return;  // a second button changes nothing
   area_->getGLWidget()->setFocus();
+  if (player_ != nullptr) return;
   dragFrom_ = event.pos();
+  dragButton_ = event.button();
   const bool left = event.button() == Qt::LeftButton;
   if (event.button() == Qt::RightButton || (left && event.modifiers().testFlag(Qt::ShiftModifier))) {
     drag_ = Drag::turn;
@@ -191,8 +195,7 @@ void SandWindow::mousePressed(const QMouseEvent& event) {
 }
 
 void SandWindow::pressTool(const QMouseEvent& event) {
-  const std::optional<ToolPlace> ground =
-      player_ != nullptr || session_.arriving() ? std::nullopt : groundAt(event.pos());
+  const std::optional<ToolPlace> ground = session_.arriving() ? std::nullopt : groundAt(event.pos());
   if (!ground) return;
   const ToolPlace place = session_.inside(*ground);
   if (const Result<void> pressed = session_.press(place); !pressed) return complain(pressed.error().message);

@@ -83,6 +83,11 @@ class SandWindowEvents : public testing::Test {
     QKeyEvent event(QEvent::KeyPress, key, modifiers);
     QApplication::sendEvent(&canvas(), &event);
   }
+  void wheel(int turned) {
+    QWheelEvent event(QPointF(100, 100), QPointF(100, 100), {}, {0, turned}, Qt::NoButton, Qt::NoModifier,
+                      Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&canvas(), &event);
+  }
   void click(const char* button) { window_->panel().findChild<QPushButton*>(button)->click(); }
   std::uint64_t hash() const { return hashOf(session_->sandbox().surface()); }
   double ground(double x, double y) const { return session_->groundHeight(x, y); }
@@ -222,9 +227,7 @@ TEST_F(SandWindowEvents, OfTheOtherButtonsAndTheWheelMoveTheView) {
     EXPECT_EQ(seen(0.0, 0.0), corner);
   }
   const int before = (seen(0.0, 0.0) - seen(1.0, 1.0)).manhattanLength();
-  QWheelEvent wheel(QPointF(100, 100), QPointF(100, 100), {}, {0, 120}, Qt::NoButton, Qt::NoModifier,
-                    Qt::NoScrollPhase, false);
-  QApplication::sendEvent(&canvas(), &wheel);
+  wheel(120);
   EXPECT_GT((seen(0.0, 0.0) - seen(1.0, 1.0)).manhattanLength(), before);
   EXPECT_EQ(hash(), begin_);
 }
@@ -274,6 +277,56 @@ TEST_F(SandWindowEvents, OfThePanelThatMakeNoToolAreSaidAndPutBack) {
   EXPECT_EQ(session_->toolValues().real("depth"), depth);
   EXPECT_EQ(panel.findChild<QDoubleSpinBox*>("depth")->value(), depth);
   EXPECT_NE(window_->panel().sentence().find("ball"), std::string::npos);
+}
+
+TEST_F(SandWindowEvents, DoNotReachASandThatAScriptPlaysIn) {
+  const Result<SandScript> script = SandScript::fromText("wireframe off\nbeats 1\n", "test.txt");
+  ASSERT_TRUE(script);
+  const QImage before = picture();
+  const QPoint corner = seen(0.0, 0.0);
+  window_->begin(&*script, std::nullopt);
+  drag(seen(0.5, 0.5), seen(0.5, 0.5) + QPoint(60, 25), Qt::RightButton, {}, 0);
+  mouse(QEvent::MouseButtonPress, seen(0.3, 0.5), Qt::RightButton);
+  mouse(QEvent::MouseMove, seen(0.7, 0.5), Qt::RightButton);
+  wheel(120);
+  EXPECT_EQ(seen(0.0, 0.0), corner);
+  key(Qt::Key_W);
+  key(Qt::Key_T);
+  EXPECT_FALSE(window_->settled());
+  mouse(QEvent::MouseButtonRelease, {3, 3}, Qt::RightButton);
+  EXPECT_EQ(session_->toolValues().choice("tool"), "round");
+  EXPECT_EQ(picture(), before);
+  EXPECT_EQ(hash(), begin_);
+  wheel(120);
+  EXPECT_NE(seen(0.0, 0.0), corner) << "the script is over";
+}
+
+TEST_F(SandWindowEvents, OfAnotherButtonDoNotEndADrag) {
+  mouse(QEvent::MouseButtonPress, seen(0.3, 0.5), Qt::LeftButton);
+  mouse(QEvent::MouseMove, seen(0.5, 0.5), Qt::LeftButton);
+  mouse(QEvent::MouseButtonPress, seen(0.5, 0.5), Qt::RightButton);
+  mouse(QEvent::MouseButtonRelease, seen(0.5, 0.5), Qt::RightButton);
+  mouse(QEvent::MouseMove, seen(0.7, 0.5), Qt::LeftButton);
+  mouse(QEvent::MouseButtonRelease, seen(0.7, 0.5), Qt::LeftButton);
+  EXPECT_TRUE(settle());
+  EXPECT_LT(ground(0.7, 0.5), -0.008);
+}
+
+TEST_F(SandWindowEvents, OfEscapeInAFieldDoNotEndTheWindow) {
+  QKeyEvent escape(QEvent::KeyPress, Qt::Key_Escape, Qt::NoModifier);
+  QApplication::sendEvent(window_->panel().findChild<QDoubleSpinBox*>("repose"), &escape);
+  EXPECT_TRUE(settle());
+  EXPECT_TRUE(window_->lastPicture().isNull());
+  key(Qt::Key_Escape);
+  EXPECT_TRUE(until([this] { return !window_->lastPicture().isNull(); }));
+}
+
+TEST_F(SandWindowEvents, LeaveNoOutlineOfTheToolOnNewSand) {
+  mouse(QEvent::MouseMove, seen(0.5, 0.5), Qt::NoButton);
+  click("make");
+  const QImage made = picture();
+  mouse(QEvent::MouseMove, {3, 3}, Qt::NoButton);
+  EXPECT_EQ(picture(), made);
 }
 
 TEST_F(SandWindowEvents, MakeNewSand) {
