@@ -32,9 +32,10 @@ SandCamera::SandCamera(SoPerspectiveCamera& camera) : camera_(camera) {
   set(Values::defaults(cameraParameters()));
 }
 
-void SandCamera::setBox(double middleX, double middleY, double side) {
+void SandCamera::setBox(double middleX, double middleY, double middleZ, double side) {
   middleX_ = middleX;
   middleY_ = middleY;
+  middleZ_ = middleZ;
   side_ = side;
   set(Values::defaults(cameraParameters()));
 }
@@ -80,7 +81,7 @@ void SandCamera::apply() {
   SbVec3f backwards;
   orientation.multVec(SbVec3f(0.0F, 0.0F, 1.0F), backwards);
   const SbVec3f target(static_cast<float>(middleX_ + view_.x), static_cast<float>(middleY_ + view_.y),
-                       static_cast<float>(view_.z));
+                       static_cast<float>(middleZ_ + view_.z));
   camera_.orientation = orientation;
   camera_.position = target + backwards * static_cast<float>(view_.distance);
   camera_.focalDistance = static_cast<float>(view_.distance);

@@ -13,8 +13,8 @@ class SandCamera {
   /// The camera must outlive it.
   explicit SandCamera(SoPerspectiveCamera& camera);
 
-  /// Another box, its middle and its longer side [m]: looks there from where all is in view.
-  void setBox(double middleX, double middleY, double side);
+  /// Another box, its middle and its longest side [m]: looks there from where all is in view.
+  void setBox(double middleX, double middleY, double middleZ, double side);
   /// Values of cameraParameters().
   void set(const Values& values);
   /// As it was at the beginning, or by the last set().
@@ -36,7 +36,7 @@ class SandCamera {
   void apply();
 
   SoPerspectiveCamera& camera_;
-  double middleX_ = 0.0, middleY_ = 0.0, side_ = 1.0;
+  double middleX_ = 0.0, middleY_ = 0.0, middleZ_ = 0.0, side_ = 1.0;
   View home_, view_;
 };
 

@@ -284,7 +284,7 @@ std::span<const Parameter> cameraParameters() noexcept {
       Parameter::real("distance", 0.0, 0.0, 1e5, "m", "of the eye; 0: all is in view"),
       Parameter::real("x", 0.0, -1000.0, 1000.0, "m", "east of the middle, the place looked at"),
       Parameter::real("y", 0.0, -1000.0, 1000.0, "m", "north of the middle"),
-      Parameter::real("z", 0.0, -16000.0, 16000.0, "m", "above zero"),
+      Parameter::real("z", 0.0, -16000.0, 16000.0, "m", "above the middle"),
   };
   return table;
 }

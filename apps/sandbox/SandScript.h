@@ -91,7 +91,8 @@ class SandScript {
 };
 
 /// The view onto the sand: turn and tilt [degree] and distance [m, 0: all in view] of the eye, and the place
-/// it looks at [m]: x, y, z above the middle. turn 0 looks north, tilt 90 straight down.
+/// it looks at [m]: x, y, z from the middle of the sand as it came. turn 0 looks north, tilt 90 straight
+/// down.
 std::span<const Parameter> cameraParameters() noexcept;
 
 }  // namespace teren

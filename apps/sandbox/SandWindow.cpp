@@ -197,10 +197,11 @@ void SandWindow::publish() {
 /// Sand that was made or loaded may lie in another box.
 void SandWindow::noticeNewSand() {
   if (std::exchange(sands_, session_.sands()) == session_.sands() && shown_ != nullptr) return;
-  const double width = session_.width(), depth = session_.depth();
-  camera_.setBox(0.5 * width, 0.5 * depth, std::max(width, depth));
-  drag_ = Drag::none;
   shown_ = session_.publish();
+  const double width = session_.width(), depth = session_.depth();
+  const double low = shown_->bounds().low, high = shown_->bounds().high;
+  camera_.setBox(0.5 * width, 0.5 * depth, 0.5 * (low + high), std::max({width, depth, high - low}));
+  drag_ = Drag::none;
   scene_.show(shown_);
   hideTool();
 }

@@ -1,6 +1,7 @@
 // The window of the sandbox under keys and a mouse as the window system sends them.
 #include "apps/sandbox/SandWindow.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPushButton>
+#include <QTimer>
 #include <QWheelEvent>
 #include <gtest/gtest.h>
 
@@ -341,6 +343,41 @@ TEST_F(SandWindowEvents, MakeNewSand) {
   EXPECT_EQ(session_->figures().vertices, 900U);
   EXPECT_TRUE(canvas().rect().contains(seen(0.0, 0.0))) << "all is in view";
   EXPECT_TRUE(canvas().rect().contains(seen(3.0, 3.0)));
+  const QImage untouched = picture();
+  mouse(QEvent::MouseMove, seen(1.5, 1.5), Qt::NoButton);
+  EXPECT_NE(picture(), untouched) << "the tool is shown on it";
+  mouse(QEvent::MouseMove, {3, 3}, Qt::NoButton);
+  EXPECT_EQ(picture(), untouched);
+}
+
+TEST_F(SandWindowEvents, MakeSandOfWhichAllIsInViewHoweverHighItIs) {
+  session_->setSlides(false);
+  QWidget* ground = window_->panel().findChild<QWidget*>("groundForm");
+  ground->findChild<QDoubleSpinBox*>("roughness")->setValue(8.0);
+  click("make");
+  EXPECT_TRUE(settle());
+  double high = 0.0;
+  for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    for (const double y : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const double height = session_->groundHeight(x, y);
+      high = std::max(high, height);
+      EXPECT_TRUE(canvas().rect().contains(window_->seenAt(x, y, height))) << x << " " << y << " " << height;
+    }
+  }
+  EXPECT_GT(high, 3.0);
+}
+
+TEST_F(SandWindowEvents, AreAwaitedWithoutDrawing) {
+  digAlongTheMiddle();
+  mouse(QEvent::MouseMove, {3, 3}, Qt::NoButton);
+  EXPECT_TRUE(settle());
+  const std::size_t frames = window_->frameTimes().count();
+  int ticks = 0;
+  QTimer timer;  // waits as the window does
+  timer.callOnTimeout([&ticks] { ++ticks; });
+  timer.start(20);
+  while (ticks < 50) QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  EXPECT_EQ(window_->frameTimes().count(), frames);
 }
 
 TEST_F(SandWindowEvents, SaveNoSandThatIsOnItsWayElsewhere) {
