@@ -298,6 +298,7 @@ Result<SandScript> SandScript::fromFile(const std::string& file) {
 Result<SandScript> SandScript::fromText(std::string_view text, const std::string& source) {
   SandScript script(shortened(source));
   int number = 0;
+  std::size_t outlines = 0;  // [bytes]
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);
@@ -314,6 +315,11 @@ Result<SandScript> SandScript::fromText(std::string_view text, const std::string
     }
     Result<What> what = readCommand(*words);
     if (!what) return script.errorAt(number, what.error().message);
+    if (const auto* taken = std::get_if<TakeTool>(&*what)) outlines += taken->values.text("outline").size();
+    if (outlines > kMostBytes) {
+      return script.errorAt(
+          number, "the outlines of all tools are longer than " + std::to_string(kMostBytes) + " bytes");
+    }
     script.commands_.push_back({number, *std::move(what)});
   }
   return script;

@@ -65,8 +65,8 @@ struct SandCommand {
 };
 
 /// A line holds a command and its values; '#' begins a comment, "quotation marks" hold spaces together.
-/// Limits: 4 MiB, 16 KiB a line, 100,000 commands. Errors name the file and the line, and say in one sentence
-/// what is wrong and what was expected.
+/// Limits: 4 MiB, 16 KiB a line, 100,000 commands, 4 MiB of tools' outlines, those of files too. Errors name
+/// the file and the line, and say in one sentence what is wrong and what was expected.
 class SandScript {
  public:
   static Result<SandScript> fromFile(const std::string& file);

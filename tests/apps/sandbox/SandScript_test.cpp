@@ -264,6 +264,18 @@ TEST(SandScript, IsReadOfFilesOnlyAndOfSmallOnes) {
   fs::remove_all(folder);
 }
 
+TEST(SandScript, RefusesOutlinesThatAreLongerAltogetherThanAScriptMayBe) {
+  const fs::path file = fs::temp_directory_path() / ("teren-long-outline-" + std::to_string(getpid()));
+  std::ofstream(file) << "0,0 0.5,0 0.25" << std::string(60'000, '0') << ",0.5\n";
+  const std::string line = "tool polygon file=\"" + file.string() + "\"\n";
+  std::string text;
+  for (int n = 0; n < 69; ++n) text += line;
+  EXPECT_EQ(refusal(text), "");
+  for (int n = 69; n < 75; ++n) text += line;
+  EXPECT_NE(refusal(text).find("line 70: the outlines"), std::string::npos) << refusal(text);
+  fs::remove(file);
+}
+
 TEST(SandScript, TakesATextOrRefusesItInOneSentenceWhateverItsDamage) {
   const std::string good = kGood;
   RandomSequence random(71);
