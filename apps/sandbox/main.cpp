@@ -144,13 +144,12 @@ bool hasDisplay() {
   return isSet("DISPLAY") || isSet("WAYLAND_DISPLAY");
 }
 
-ExitCode playWithoutWindow(const CLI::App& application, const SandOptions& options) {
+ExitCode playWithoutWindow(const CLI::App& application, const SandOptions& options, SandSession& session) {
   watchForEnd();
-  const std::unique_ptr<SandSession> session = emptySession(options);
-  bringSand(*session, options);
-  if (const Result<void> came = session->await(); !came)
-    return fail(application, kWrongInput, came.error().message);
-  SandPlayer player(*options.script, *session, nullptr, std::cout);
+  bringSand(session, options);
+  session.work([&session] { return !session.arriving() || endAsked(); });
+  for (const std::string& message : session.takeMessages()) return fail(application, kWrongInput, message);
+  SandPlayer player(*options.script, session, nullptr, std::cout);
   const Result<bool> played = player.play(endAsked);
   if (!played) return fail(application, player.failure(), played.error().message);
   return *played ? kSuccess : fail(application, kWorkFailed, "interrupted");
@@ -175,10 +174,9 @@ Result<void> saveResults(const SandOptions& options, const SandWindow& window, c
 }
 
 /// `failure`: what to end with after an error.
-Result<void> showSand(const SandOptions& options, ExitCode& failure) {
-  const std::unique_ptr<SandSession> session = emptySession(options);
-  bringSand(*session, options);
-  SandWindow window(*session, options.window.size, options.wireframe);
+Result<void> showSand(const SandOptions& options, SandSession& session, ExitCode& failure) {
+  bringSand(session, options);
+  SandWindow window(session, options.window.size, options.wireframe);
   using Duration = SandWindow::Clock::duration;
   std::optional<Duration> duration;
   if (options.window.seconds) {
@@ -190,7 +188,21 @@ Result<void> showSand(const SandOptions& options, ExitCode& failure) {
     failure = window.failure();
     return *window.error();
   }
-  return saveResults(options, window, *session);
+  return saveResults(options, window, session);
+}
+
+ExitCode showInWindow(const CLI::App& application, const SandOptions& options, char** argv,
+                      SandSession& session) {
+  ExitCode failure = kWorkFailed;
+  const Result<void> shown = runWithWindows(kName, argv, [&] { return showSand(options, session, failure); });
+  return shown ? kSuccess : fail(application, failure, shown.error().message);
+}
+
+/// Without waiting for the sand that another thread still makes; all that is to be kept has been written.
+[[noreturn]] void endAtOnce(ExitCode code) {
+  std::cout.flush();
+  std::fflush(nullptr);
+  std::_Exit(code);
 }
 
 int run(int argc, char** argv) {
@@ -204,10 +216,11 @@ int run(int argc, char** argv) {
   const Result<SandOptions> options = commandLine.resolve();
   if (!options) return fail(application, kWrongInput, options.error().message);
   const bool unseen = options->script && !options->wantsPicture() && !hasDisplay();
-  if (options->noWindow || unseen) return playWithoutWindow(application, *options);
-  ExitCode failure = kWorkFailed;
-  const Result<void> shown = runWithWindows(kName, argv, [&] { return showSand(*options, failure); });
-  return shown ? kSuccess : fail(application, failure, shown.error().message);
+  const std::unique_ptr<SandSession> session = emptySession(*options);
+  const ExitCode code = options->noWindow || unseen ? playWithoutWindow(application, *options, *session)
+                                                    : showInWindow(application, *options, argv, *session);
+  if (session->arriving()) endAtOnce(code);
+  return code;
 }
 
 }  // namespace

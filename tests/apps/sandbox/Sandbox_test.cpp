@@ -240,5 +240,13 @@ TEST_F(Sandbox, EndsCleanlyWhenInterrupted) {
   EXPECT_FALSE(fs::exists(file("c.sand")));
 }
 
+TEST_F(Sandbox, EndsWithoutWaitingForTheSandToBeginWith) {
+  const Outcome ended =
+      runOn("'' timeout -s INT 1", "--no-window --vertices 4000000 --script " + script("hash\n"));
+  EXPECT_EQ(ended.exitCode, 124);
+  EXPECT_EQ(ended.errors, "teren-sandbox: interrupted\n");
+  EXPECT_EQ(ended.output, "") << "no command of the script has been reached";
+}
+
 }  // namespace
 }  // namespace teren
