@@ -46,7 +46,7 @@ SandPlainPainter::Vertex SandPlainPainter::vertexOf(const SandPicture& picture, 
 
 void SandPlainPainter::follow(const SandPicture& picture) {
   const bool same = last_.sand && last_.sun == picture.sun && last_.sunlight == picture.sunlight &&
-                    last_.moisture == picture.moisture;
+                    last_.moisture == picture.moisture && last_.sand->frame() == picture.sand->frame();
   const SandSnapshot none;
   const auto& pages = picture.sand->vertexPages();
   const float side = sideOf(*picture.sand);

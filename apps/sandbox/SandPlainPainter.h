@@ -14,7 +14,7 @@
 namespace teren {
 
 /// Keeps, in the program's own memory, the vertices it has drawn: 16 bytes each. Pages that differ are made
-/// again, all of them when light or moisture change.
+/// again, all of them when light, moisture or the box change.
 class SandPlainPainter final : public SandPainter {
  public:
   SandPlainPainter() = default;

@@ -122,12 +122,13 @@ std::shared_ptr<const SandSnapshot> SandPublisher::publishAll(Sandbox& sandbox) 
     }
     take(mesh, t);
   }
+  const bool sameStep = last_ && last_->frame().step == surface.step();
   for (VertexId v = 0; v < vertexPages * SandVertexPage::kSlots; ++v) {
     const At<SandVertexPage> at(v);
     if (at.page < vertices_.table().size()) {
       SandVertex last = vertices_.table()[at.page].vertices[at.slot];
       last.normal = {};
-      if (last == plainVertex(surface, v)) continue;
+      if (sameStep && last == plainVertex(surface, v)) continue;
     }
     refreshed_.add(v);
     if (!last_ || !mesh.isVertex(v)) continue;

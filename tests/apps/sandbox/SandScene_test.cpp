@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <Inventor/SbViewportRegion.h>
 #include <Inventor/SoPickedPoint.h>
@@ -336,6 +337,40 @@ TEST(SandScene, ShowsTheSameInABufferThatHasGrownAndInANewOne) {
   const QImage grown = view.picture(beach.root, kMagenta);
   OffscreenView other(120, 120);
   EXPECT_EQ(grown, other.picture(beach.root, kMagenta));
+}
+
+/// A patch of a metre in the middle of a box, so small that most of it is published as the same pages
+/// whatever the box's height is.
+Sandbox patchOfThinSand(std::int32_t height) {
+  LatticeFrame frame;
+  frame.step = 0x1p-10;
+  frame.width = std::int32_t{1} << 20;
+  frame.height = height;
+  RandomSequence random(11);
+  std::vector<LatticePoint> points;
+  for (int n = 0; n < 3'000; ++n) {
+    const auto x = (1 << 19) + static_cast<std::int32_t>(random.nextBits(10));
+    points.push_back({x, (1 << 19) + static_cast<std::int32_t>(random.nextBits(10))});
+  }
+  const std::vector<double> heights(points.size(), 0.0);
+  return Sandbox(SandSurface(frame, points, heights, 2.0), {});
+}
+
+TEST(SandScene, ShowsSandByTheSizeOfTheBoxItLiesInNow) {
+  for (const bool shaders : {true, false}) {
+    const std::optional<WithoutShaders> without =
+        shaders ? std::nullopt : std::make_optional<WithoutShaders>();
+    Beach beach(100);
+    beach.lookDown(512.5, 512.5, 0.6);
+    OffscreenView view(120, 120), other(120, 120);
+    for (const std::int32_t height : {2 << 19, 3 << 19}) {
+      beach.sandbox = patchOfThinSand(height);
+      beach.scene.show(beach.publisher.publishAll(beach.sandbox));
+      view.draw(beach.root, kMagenta);
+    }
+    const bool equal = view.picture(beach.root, kMagenta) == other.picture(beach.root, kMagenta);
+    EXPECT_TRUE(equal) << (shaders ? "with shaders" : "without shaders");
+  }
 }
 
 TEST(SandScene, MarksWhereAToolWouldCut) {

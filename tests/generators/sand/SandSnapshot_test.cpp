@@ -197,6 +197,25 @@ TEST(SandSnapshot, EqualsAnotherSurfaceThatHasTakenThePlaceOfTheFirst) {
   ASSERT_EQ(difference(game.surface(), *game.publish()), "");
 }
 
+TEST(SandSnapshot, EqualsSandOfTheSameHeightsInAWiderBox) {
+  const auto sandOf = [](double step) {
+    RandomSequence random(88);
+    std::vector<LatticePoint> points;
+    std::vector<double> heights;
+    for (int n = 0; n < 1'000; ++n) {
+      const auto x = static_cast<std::int32_t>(random.nextBits(20));
+      points.push_back({x, static_cast<std::int32_t>(random.nextBits(20))});
+      heights.push_back(0.1 * uniform(random.next()));
+    }
+    return Sandbox(SandSurface(boxOf(20, step), points, heights, 0.01), {});
+  };
+  Sandbox sandbox = sandOf(0x1p-20);
+  SandPublisher publisher;
+  publisher.publish(sandbox);
+  sandbox = sandOf(0x1p-18);
+  EXPECT_EQ(difference(sandbox.surface(), *publisher.publishAll(sandbox)), "");
+}
+
 TEST(SandSnapshot, EqualsSandThatHasBeenPutBack) {
   Game game(86, 3'000);
   const Sandbox before = game.sandbox();
