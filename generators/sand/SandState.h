@@ -95,7 +95,7 @@ class SandState {
   static Result<void> checkVertices(const SandSurface& surface);
   static Result<void> checkTriangles(const TriangleMesh& mesh);
   static Result<void> checkFree(const TriangleMesh& mesh);
-  static Result<void> checkConstraints(const Triangulation& mesh);
+  static Result<void> checkConstraints(const Triangulation& mesh, std::uint32_t nextId);
   static Result<void> checkCells(const Triangulation& mesh);
   static Result<void> check(const Sandbox& sandbox);
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kFarthest = 1e12;                  // [m] the box's corner
 constexpr double kFinest = 1e-12, kCoarsest = 1e6;  // [m] the lattice's step
+constexpr std::uint32_t kLastId = 0xffff0000;       // what is left is ample for one tool
 constexpr std::int64_t kThickest = 4 * kHighestTick;
 constexpr SixfoldVolume kMostOwed = SixfoldVolume{1} << 112;  // twice what any surface holds
 constexpr SixfoldVolume kMostMoved = SixfoldVolume{1} << 124;
@@ -44,6 +45,7 @@ Result<void> SandState::checkNumbers(const Numbers& numbers, const Sections&) {
   if (!(0.0 <= numbers.cleanUp.largestError && numbers.cleanUp.largestError <= set.flatness)) {
     return Error{"its clean-up's error cannot be"};
   }
+  if (numbers.nextId > kLastId) return Error{"it has had more stamps than there are numbers for"};
   if (numbers.cellShift < 0 || numbers.cellShift > 28) return Error{"its grid of cells cannot be"};
   return {};
 }
@@ -149,7 +151,7 @@ Result<void> SandState::checkFree(const TriangleMesh& mesh) {
   return {};
 }
 
-Result<void> SandState::checkConstraints(const Triangulation& mesh) {
+Result<void> SandState::checkConstraints(const Triangulation& mesh, std::uint32_t nextId) {
   const ConstraintTable& table = mesh.table_;
   std::size_t used = 0, run = 0;
   for (std::size_t i = 0; i < table.places_.size(); ++i) {
@@ -162,6 +164,7 @@ Result<void> SandState::checkConstraints(const Triangulation& mesh) {
     if (++run > kLongestRun || place.a >= place.b || place.b >= mesh.vertexSlots()) {
       return Error{"its table of constraints is none"};
     }
+    if (place.id >= nextId) return Error{"a constraint in it is of a stamp to come"};
   }
   if (used != table.used_) return Error{"its constraints are miscounted"};
   for (std::size_t i = 0; i < table.places_.size(); ++i) {
@@ -189,7 +192,7 @@ Result<void> SandState::check(const Sandbox& sandbox) {
   if (const Result<void> fine = checkVertices(surface); !fine) return fine;
   if (const Result<void> fine = checkTriangles(mesh.mesh_); !fine) return fine;
   if (const Result<void> fine = checkFree(mesh.mesh_); !fine) return fine;
-  if (const Result<void> fine = checkConstraints(mesh); !fine) return fine;
+  if (const Result<void> fine = checkConstraints(mesh, sandbox.stamper_.nextId()); !fine) return fine;
   if (const Result<void> fine = checkCells(mesh); !fine) return fine;
   return surface.validate();
 }

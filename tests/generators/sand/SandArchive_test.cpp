@@ -260,6 +260,22 @@ TEST(SandArchive, IndicesThatLeadNowhereAreRefused) {
   refused(SandState::kToClean, 4, first);  // waits twice
 }
 
+TEST(SandArchive, ConstraintsOfStampsToComeAreRefused) {
+  const RandomGame game = busyGame(5, 40);
+  const Bytes bytes = archived(game.sandbox());
+  std::uint32_t youngest = 0;
+  game.sandbox().surface().mesh().forEachConstraint(
+      [&](VertexId, VertexId, std::uint32_t id) { youngest = std::max(youngest, id); });
+  ASSERT_GT(youngest, 1U);
+  constexpr std::size_t kNextId = 236;
+  const auto read = [&](std::uint32_t nextId) {
+    return Forgery(bytes).put(SandState::kNumbers, kNextId, nextId).read();
+  };
+  EXPECT_TRUE(read(youngest + 1));
+  EXPECT_TRUE(read(0xffff0000U));
+  for (const std::uint32_t bad : {0U, 1U, youngest, 0xffff0001U, ~0U}) EXPECT_FALSE(read(bad)) << bad;
+}
+
 TEST(SandArchive, FreeSlotsMustFormAChain) {
   RandomGame game = busyGame(5, 40);
   ASSERT_TRUE(game.sandbox().stamp(*ToolShape::disc(0.3, 0.2), {0.5, 0.5, 0.0}));  // takes many away
