@@ -185,9 +185,13 @@ VertexId SandSurface::insert(LatticePoint p, TriangleId hint) {
   return v;
 }
 
-VertexId SandSurface::divide(VertexId a, VertexId b) {
+LatticePoint SandSurface::middle(VertexId a, VertexId b) const noexcept {
   const LatticePoint from = mesh_.point(a), to = mesh_.point(b);
-  const LatticePoint p{(from.x + to.x) >> 1, (from.y + to.y) >> 1};
+  return {(from.x + to.x) >> 1, (from.y + to.y) >> 1};
+}
+
+VertexId SandSurface::divide(VertexId a, VertexId b) {
+  const LatticePoint p = middle(a, b);
   if (mesh_.vertexAt(p, mesh_.triangleAt(a)) != kNoVertex) return kNoVertex;
   const auto id = mesh_.constraint(a, b);
   begin();

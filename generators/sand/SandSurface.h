@@ -69,8 +69,10 @@ class SandSurface {
 
   /// Adds a vertex on the surface, or finds the one that is there.
   VertexId insert(LatticePoint p, TriangleId hint = kNoTriangle);
-  /// Adds a vertex in the middle of an edge, to the nearest step; a constraint goes through it. kNoVertex,
-  /// and nothing changes, where there is one already.
+  /// Half way between two vertices, rounded down to a step.
+  LatticePoint middle(VertexId a, VertexId b) const noexcept;
+  /// Adds a vertex in the middle() of an edge; a constraint goes through it. kNoVertex, and nothing changes,
+  /// where there is one already.
   VertexId divide(VertexId a, VertexId b);
   /// False, and nothing changes, at a corner of the box or the end of a constrained edge.
   bool remove(VertexId v);

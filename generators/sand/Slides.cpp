@@ -17,8 +17,7 @@ double squaredLength(LatticePoint a, LatticePoint b) noexcept {
 /// The edge a b, or a long one beside it that stays and in whose circle the middle of a b would lie.
 std::pair<VertexId, VertexId> edgeToDivide(const SandSurface& surface, VertexId a, VertexId b, double limit) {
   const Triangulation& mesh = surface.mesh();
-  const LatticePoint from = mesh.point(a), to = mesh.point(b);
-  const LatticePoint p{(from.x + to.x) >> 1, (from.y + to.y) >> 1};
+  const LatticePoint p = surface.middle(a, b);
   std::pair<VertexId, VertexId> found{a, b};
   mesh.forEachCorner(a, [&](Link at) {
     const std::array<VertexId, 3>& corners = mesh.corners(at.triangle());

@@ -177,6 +177,8 @@ TEST(SandSurface, DividesAConstrainedEdgeIntoConstrainedEdges) {
   surface.constrain(a, b, 9);
   const VertexId between = surface.divide(a, b);
   ASSERT_NE(between, kNoVertex);
+  EXPECT_TRUE(surface.mesh().point(between) == (LatticePoint{400'003, 550'001}));
+  EXPECT_TRUE(surface.middle(a, b) == surface.mesh().point(between));
   EXPECT_EQ(surface.mesh().constraint(a, between), 9U);
   EXPECT_EQ(surface.mesh().constraint(between, b), 9U);
   EXPECT_EQ(surface.mesh().constraintCount(), 2U);
