@@ -37,10 +37,10 @@ bool isOutside(const SandBounds& bounds, float step, const std::array<Plane, 6>&
 
 }  // namespace
 
-std::vector<SandRun> visibleRuns(const SandSnapshot& sand, const SbMatrix& toClip) {
+std::vector<PageRun> visibleRuns(const SandSnapshot& sand, const SbMatrix& toClip) {
   const std::array<Plane, 6> planes = planesOf(toClip);
   const auto step = static_cast<float>(sand.frame().step);
-  std::vector<SandRun> runs;
+  std::vector<PageRun> runs;
   for (std::size_t page = 0; page < sand.trianglePages().size(); ++page) {
     if (isOutside(sand.bounds(page), step, planes)) continue;
     if (runs.empty() || runs.back().first + runs.back().count != page) runs.push_back({page, 0});

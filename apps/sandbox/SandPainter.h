@@ -44,12 +44,12 @@ struct SandLook {
   static constexpr float kConstrainedWidth = 2.0F;  // [pixels]
 };
 
-/// Consecutive slots of triangles.
-struct SandRun {
+/// Consecutive pages of triangles.
+struct PageRun {
   std::size_t first = 0, count = 0;  // [pages]
 };
 /// The pages of triangles that are not outside the view, in runs as long as possible.
-std::vector<SandRun> visibleRuns(const SandSnapshot& sand, const SbMatrix& toClip);
+std::vector<PageRun> visibleRuns(const SandSnapshot& sand, const SbMatrix& toClip);
 
 /// Longer side of the box [m].
 inline float sideOf(const SandSnapshot& sand) {

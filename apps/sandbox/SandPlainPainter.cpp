@@ -119,7 +119,7 @@ void SandPlainPainter::drawWire(const SandPicture& picture) {
 
 void SandPlainPainter::drawTriangles(const SandPicture& picture) const {
   const auto& pages = picture.sand->trianglePages();
-  for (const SandRun& run : visibleRuns(*picture.sand, picture.toClip)) {
+  for (const PageRun& run : visibleRuns(*picture.sand, picture.toClip)) {
     for (std::size_t i = run.first; i < run.first + run.count; ++i) {
       glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * SandTrianglePage::kSlots), GL_UNSIGNED_INT,
                      pages[i].corners.data());

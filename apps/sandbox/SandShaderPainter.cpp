@@ -51,9 +51,9 @@ void pointAttributes(const SandVertex* start) {
   glVertexAttribPointer(kSandNormal, 2, GL_SHORT, GL_FALSE, kStride, at(start, offsetof(SandVertex, normal)));
 }
 
-void drawRuns(const std::vector<SandRun>& runs) {
+void drawRuns(const std::vector<PageRun>& runs) {
   constexpr std::size_t kIndices = 3 * SandTrianglePage::kSlots;
-  for (const SandRun& run : runs) {
+  for (const PageRun& run : runs) {
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.count * kIndices), GL_UNSIGNED_INT,
                    at(nullptr, run.first * kIndices * sizeof(VertexId)));
   }
@@ -94,7 +94,7 @@ void SandShaderPainter::draw(const SandPicture& picture) {
   buffers_.follow(picture.sand);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
-  const std::vector<SandRun> runs = visibleRuns(*picture.sand, picture.toClip);
+  const std::vector<PageRun> runs = visibleRuns(*picture.sand, picture.toClip);
   if (picture.wireframe) {
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.0F, 1.0F);
@@ -107,7 +107,7 @@ void SandShaderPainter::draw(const SandPicture& picture) {
   }
 }
 
-void SandShaderPainter::drawSand(const SandPicture& picture, const std::vector<SandRun>& runs) {
+void SandShaderPainter::drawSand(const SandPicture& picture, const std::vector<PageRun>& runs) {
   const float side = sideOf(*picture.sand);
   sand_.use();
   sand_.set("step", static_cast<float>(picture.sand->frame().step));
@@ -132,7 +132,7 @@ void SandShaderPainter::drawSand(const SandPicture& picture, const std::vector<S
   drawRuns(runs);
 }
 
-void SandShaderPainter::drawWire(const SandPicture& picture, const std::vector<SandRun>& runs) {
+void SandShaderPainter::drawWire(const SandPicture& picture, const std::vector<PageRun>& runs) {
   wire_.use();
   wire_.set("step", static_cast<float>(picture.sand->frame().step));
   wire_.set("hiding", 1.0F);

@@ -26,8 +26,8 @@ class SandShaderPainter final : public SandPainter {
 
  private:
   SandShaderPainter() = default;
-  void drawSand(const SandPicture& picture, const std::vector<SandRun>& runs);
-  void drawWire(const SandPicture& picture, const std::vector<SandRun>& runs);
+  void drawSand(const SandPicture& picture, const std::vector<PageRun>& runs);
+  void drawWire(const SandPicture& picture, const std::vector<PageRun>& runs);
 
   ShaderProgram sand_, wire_;
   SandBuffers buffers_;
