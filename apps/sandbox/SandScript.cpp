@@ -19,7 +19,6 @@ constexpr std::size_t kMostLineBytes = 16384;
 constexpr std::size_t kMostCommands = 100'000;
 constexpr std::int64_t kMostBeats = 1'000'000;
 constexpr std::int64_t kBeatsToSettle = 100'000;
-constexpr double kHighest = 16'000.0;   // [m]
 constexpr double kFarthest = 1'000.0;   // [m] the largest box's side
 constexpr double kDragSpeed = 0.5;      // [m/s]
 constexpr double kMostSpeed = 1'000.0;  // [m/s]
@@ -146,7 +145,7 @@ Result<ToolPlace> readPlace(std::span<const std::string> words, const char* comm
   if (!y) return y.error();
   ToolPlace place{*x, *y, std::nullopt};
   if (words.size() == 3) {
-    const Result<double> z = numberArgument("Z", words[2], -kHighest, kHighest);
+    const Result<double> z = numberArgument("Z", words[2], -kHighestTool, kHighestTool);
     if (!z) return z.error();
     place.height = *z;
   }

@@ -13,9 +13,8 @@
 namespace teren {
 namespace {
 
-constexpr std::uint64_t kStepsPerSlice = 1'000;  // about a millisecond
+constexpr std::uint64_t kStepsPerSlice = 1'000;  // 0.1 to 0.4 ms (Slides.h)
 constexpr std::size_t kHistoryBytes = std::size_t{256} << 20;
-constexpr double kHighest = 16'000.0;  // [m] a tool
 
 /// [s] of the thread's processor time.
 double now() {
@@ -88,7 +87,7 @@ Result<void> SandSession::check(const ToolPlace& place) const {
     return Error{"the tool reaches " + numberText(tool_->reach()) + " m around, too far for sand of " +
                  numberText(width()) + " x " + numberText(depth()) + " m"};
   }
-  if (place.height && !(std::fabs(*place.height) <= kHighest)) {
+  if (place.height && !(std::fabs(*place.height) <= kHighestTool)) {
     return Error{"a tool's height is " + numberText(*place.height) +
                  ", expected a number from -16000 to 16000 m"};
   }
@@ -108,12 +107,15 @@ Result<void> SandSession::checkRoom(double stamps) const {
   return {};
 }
 
+StampPlace SandSession::stampAt(const ToolPlace& place) const noexcept {
+  const LatticeFrame& frame = sandbox_->surface().mesh().frame();
+  return {frame.x + place.x, frame.y + place.y, place.height.value_or(0.0)};
+}
+
 Result<void> SandSession::press(const ToolPlace& place) {
   if (const Result<void> fine = check(place); !fine) return fine;
   if (const Result<void> fine = checkRoom(1.0); !fine) return fine;
-  const LatticeFrame& frame = sandbox_->surface().mesh().frame();
-  const StampPlace at{frame.x + place.x, frame.y + place.y, place.height.value_or(0.0)};
-  waiting_.push_back({tool_, at, place.height.has_value(), true});
+  waiting_.push_back({tool_, stampAt(place), place.height.has_value(), true});
   held_ = place;
   return {};
 }
@@ -121,16 +123,12 @@ Result<void> SandSession::press(const ToolPlace& place) {
 Result<void> SandSession::dragTo(const ToolPlace& place, double speed) {
   if (!held_) return {};
   if (const Result<void> fine = check(place); !fine) return fine;
-  const LatticeFrame& frame = sandbox_->surface().mesh().frame();
-  const auto at = [&frame](const ToolPlace& p) {
-    return StampPlace{frame.x + p.x, frame.y + p.y, p.height.value_or(0.0)};
-  };
   const double spacing = stampSpacing(speed, *tool_);
   const double x = place.x - held_->x, y = place.y - held_->y;
   const double stamps = std::sqrt(x * x + y * y) / spacing;
   if (stamps < 1.0) return {};
   if (const Result<void> fine = checkRoom(stamps); !fine) return fine;
-  for (const StampPlace& stamp : stampsAlong(at(*held_), at(place), spacing)) {
+  for (const StampPlace& stamp : stampsAlong(stampAt(*held_), stampAt(place), spacing)) {
     waiting_.push_back({tool_, stamp, place.height.has_value(), false});
   }
   held_ = place;
@@ -275,7 +273,7 @@ SandFigures SandSession::figures() const {
   figures.vertices = mesh.vertexCount();
   figures.triangles = mesh.triangleCount();
   figures.constraints = mesh.constraintCount();
-  figures.bytes = sandbox_->bytes();
+  figures.bytes = sandbox_->bytes() + publisher_.bytes();
   figures.beat = beat_;
   figures.waiting = waiting_.size();
   figures.atRest = sandbox_->slides().atRest();

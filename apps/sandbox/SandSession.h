@@ -21,6 +21,9 @@
 
 namespace teren {
 
+/// [m] Tools go as high and as low.
+inline constexpr double kHighestTool = 16'000.0;
+
 /// A place for a tool [m]; without a height the tool is pressed in from the ground there.
 struct ToolPlace {
   double x = 0.0, y = 0.0;
@@ -30,7 +33,8 @@ struct ToolPlace {
 /// What there is, and what the parts of the last beats cost [s]: a stamp's those of the last one, slides and
 /// clean-up those of the last beat.
 struct SandFigures {
-  std::size_t vertices = 0, triangles = 0, constraints = 0, bytes = 0;
+  std::size_t vertices = 0, triangles = 0, constraints = 0;
+  std::size_t bytes = 0;  // of the sandbox and of what is published
   std::uint64_t beat = 0;
   std::size_t waiting = 0;  // stamps
   bool atRest = true;
@@ -104,8 +108,8 @@ class SandSession {
 
   /// Nothing is left to compute, and no sand is on its way.
   bool idle() const noexcept { return resting() && !arriving(); }
-  /// Computes until all is idle or `over` says so, which is asked after each slice of about a millisecond;
-  /// where sand is on its way, waits for it as long.
+  /// Computes until all is idle or `over` says so, which is asked after each stamp, clean-up and 1000 steps
+  /// of slides; where sand is on its way, waits for it as long.
   void work(const Over& over);
   /// To the end of the beat that has been begun, if any.
   void finishBeat();
@@ -129,6 +133,7 @@ class SandSession {
 
   Result<void> check(const ToolPlace& place) const;
   Result<void> checkRoom(double stamps) const;
+  StampPlace stampAt(const ToolPlace& place) const noexcept;
   bool resting() const noexcept;
   void receive();
   Result<void> takeArrived();

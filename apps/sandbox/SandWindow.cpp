@@ -227,11 +227,12 @@ void SandWindow::finish() {
 
 /// What the panel shows, and nothing that has not changed: a person may be typing.
 void SandWindow::showState() {
-  panel_->showFigures(session_.figures(), frameTimes_.latest(kFramesShown).p50);
+  SandFigures figures = session_.figures();
+  figures.bytes = bytes();
+  panel_->showFigures(figures, frameTimes_.latest(kFramesShown).p50);
   panel_->setEnabled(player_ == nullptr);
   panel_->showTool(session_.toolValues());
   panel_->showSand(sandValues());
-  const SandFigures figures = session_.figures();
   panel_->showProgress(session_.arriving()   ? "making or loading sand ..."
                        : player_ != nullptr  ? "playing the script ..."
                        : figures.waiting > 0 ? std::to_string(figures.waiting) + " stamps wait ..."
@@ -248,7 +249,7 @@ Values SandWindow::sandValues() const {
 }
 
 std::size_t SandWindow::bytes() const {
-  return session_.sandbox().bytes() + (shown_ ? shown_->bytes() : 0);
+  return session_.figures().bytes + scene_.bufferBytes();
 }
 
 // ---- What a script and the panel do ----
