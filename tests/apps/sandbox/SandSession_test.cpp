@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -76,12 +77,14 @@ TEST(SandSession, TakesWhatComesWithinABeatAtItsEnd) {
     workTo(session, 3, intoIt);
     session.setRepose(20.0, 0.0);
     workTo(session, 5, intoIt);
+    session.finishBeat();
+    const std::uint64_t beforeUndo = hashOf(session);
     EXPECT_TRUE(session.undo());
     workTo(session, 6, intoIt);
     session.setSlides(false);
     drag(session, {0.3, 0.6, {}}, {0.5, 0.4, {}});
     rest(session);
-    return hashOf(session);
+    return std::pair(beforeUndo, hashOf(session));
   };
   EXPECT_EQ(played(true), played(false));
 }
