@@ -6,17 +6,14 @@
 #include <limits>
 #include <tuple>
 
+#include "stream/View.h"
+
 namespace teren {
 
 namespace {
 
 constexpr double kStaysSplit = 0.8;  // of the error at which a node is split
 constexpr double kNearest = 0.1;     // [m] no eye is nearer to what it sees
-
-bool insideWorld(const NodeKey& key) noexcept {
-  const std::int64_t most = (kMaxPatch >> key.level) - 1;
-  return key.i >= -most && key.i < most && key.j >= -most && key.j < most;
-}
 
 /// How far a coordinate lies from an interval.
 double away(double low, double high) noexcept {

@@ -8,13 +8,12 @@
 
 namespace teren {
 
-namespace {
-
-/// Inside the world, so that neighbours of a node never leave it either.
 bool insideWorld(const NodeKey& key) noexcept {
   const std::int64_t most = (kMaxPatch >> key.level) - 1;
   return key.i >= -most && key.i < most && key.j >= -most && key.j < most;
 }
+
+namespace {
 
 /// Times [s]; empty where from > to.
 struct Span {

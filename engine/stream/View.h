@@ -10,6 +10,9 @@
 
 namespace teren {
 
+/// Whether a node may be wanted: inside the world, so that its neighbours never leave it either.
+bool insideWorld(const NodeKey& key) noexcept;
+
 /// The nodes of the view around a position, nearest to it first (ties by key, so that the order is fixed).
 std::vector<NodeKey> viewNodes(const Position& position, const ViewSettings& view, const World& world);
 
