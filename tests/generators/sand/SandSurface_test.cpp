@@ -1,6 +1,7 @@
 #include "generators/sand/SandSurface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -257,6 +258,31 @@ TEST(SandSurface, TellsOfWhatBecameLoose) {
   surface.mesh().forEachCorner(50, [&](Link at) {
     EXPECT_TRUE(surface.changedTriangles().contains(at.triangle())) << "it may slide now";
   });
+}
+
+TEST(SandSurface, TellsOfSidesThatBecomeAndCeaseToBeConstrainedWhereNoTriangleChanges) {
+  SandSurface surface = scatteredSand(100, 20, 0.1, ripples);
+  const VertexId from = 50;
+  VertexId to = kNoVertex;
+  surface.mesh().forEachNeighbour(from, [&](VertexId n) { to = n; });
+  const auto expectBothSidesTold = [&](const char* what) {
+    int sides = 0;
+    surface.mesh().forEachCorner(from, [&](Link at) {
+      const std::array<VertexId, 3>& corners = surface.mesh().corners(at.triangle());
+      if (std::ranges::find(corners, to) == corners.end()) return;
+      EXPECT_TRUE(surface.changedTriangles().contains(at.triangle())) << what;
+      ++sides;
+    });
+    EXPECT_EQ(sides, 2);
+  };
+  surface.clearChanges();
+  surface.constrain(from, to, 1);
+  ASSERT_TRUE(surface.lastChanges().empty()) << "the edge is there already";
+  expectBothSidesTold("constrained");
+  surface.clearChanges();
+  ASSERT_TRUE(surface.unconstrain(from, to));
+  ASSERT_TRUE(surface.lastChanges().empty()) << "and is a Delaunay edge";
+  expectBothSidesTold("free again");
 }
 
 TEST(SandSurface, ListsEveryVertexAndTriangleThatChanged) {
