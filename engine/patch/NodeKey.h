@@ -16,12 +16,20 @@ struct NodeKey {
 
   NodeKey parent() const noexcept { return {level + 1, i >> 1, j >> 1}; }
   NodeKey neighbour(int di, int dj) const noexcept { return {level, i + di, j + dj}; }
+  /// The 0 ... 3rd of the four nodes of the next finer level inside: south-west, south-east, north-west,
+  /// north-east.
+  NodeKey child(int which) const noexcept { return {level - 1, i * 2 + (which & 1), j * 2 + (which >> 1)}; }
   /// The node of a coarser or equal level that contains this one.
   NodeKey ancestor(int atLevel) const noexcept {
     return {atLevel, i >> (atLevel - level), j >> (atLevel - level)};
   }
   friend bool operator==(const NodeKey&, const NodeKey&) = default;
 };
+
+/// Whether a node lies in another, or is it.
+inline bool isIn(const NodeKey& inner, const NodeKey& outer) noexcept {
+  return inner.level <= outer.level && inner.ancestor(outer.level) == outer;
+}
 
 /// Whether the squares of two nodes have a point in common, be it only a corner.
 inline bool touch(const NodeKey& a, const NodeKey& b) noexcept {

@@ -87,17 +87,13 @@ class PatchTree {
   void growRoot(Root& root, const NodeKey& key);
   bool eraseBelow(std::unique_ptr<Node>& node, int level, const NodeKey& key);
 
-  static NodeKey childOf(const NodeKey& key, std::size_t child) noexcept {
-    return {key.level - 1, key.i * 2 + static_cast<std::int64_t>(child & 1),
-            key.j * 2 + static_cast<std::int64_t>(child >> 1)};
-  }
-
   template <class Visit>
   static void forEachTouchingBelow(const Node& node, const NodeKey& at, const NodeKey& key, Visit& visit) {
     if (!touch(at, key)) return;
     if (node.data) visit(at, node.data);
     for (std::size_t child = 0; child < 4; ++child) {
-      if (node.children[child]) forEachTouchingBelow(*node.children[child], childOf(at, child), key, visit);
+      if (node.children[child])
+        forEachTouchingBelow(*node.children[child], at.child(static_cast<int>(child)), key, visit);
     }
   }
 
@@ -106,7 +102,7 @@ class PatchTree {
     if (node.data) visit(key, node.data);
     for (std::size_t child = 0; child < 4; ++child) {
       if (!node.children[child]) continue;
-      forEachBelow(*node.children[child], childOf(key, child), visit);
+      forEachBelow(*node.children[child], key.child(static_cast<int>(child)), visit);
     }
   }
 

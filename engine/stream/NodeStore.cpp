@@ -27,10 +27,6 @@ bool byLevelAndKey(const NodeKey& a, const NodeKey& b) noexcept {
   return std::tie(a.level, a.j, a.i) < std::tie(b.level, b.j, b.i);
 }
 
-bool isIn(const NodeKey& inner, const NodeKey& outer) noexcept {
-  return inner.level <= outer.level && inner.ancestor(outer.level) == outer;
-}
-
 }  // namespace
 
 NodeHeights NodeStore::heights(const NodeKey& key) const {

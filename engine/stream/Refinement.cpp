@@ -12,8 +12,7 @@ namespace {
 std::array<NodeKey, 4> childrenOf(const NodeKey& key) noexcept {
   std::array<NodeKey, 4> children;
   for (int child = 0; child < 4; ++child) {
-    children[static_cast<std::size_t>(child)] = {key.level - 1, key.i * 2 + (child & 1),
-                                                 key.j * 2 + (child >> 1)};
+    children[static_cast<std::size_t>(child)] = key.child(child);
   }
   return children;
 }
@@ -43,10 +42,8 @@ bool canSplit(const NodeStore& nodes, const NodeKey& key) {
                      [&](const NodeKey& other) { return other.level <= key.level; });
 }
 
-bool isIn(const NodeKey& key, const std::vector<NodeKey>& nodes) {
-  return std::any_of(nodes.begin(), nodes.end(), [&](const NodeKey& node) {
-    return key.level <= node.level && key.ancestor(node.level) == node;
-  });
+bool isInAny(const NodeKey& key, const std::vector<NodeKey>& nodes) {
+  return std::any_of(nodes.begin(), nodes.end(), [&](const NodeKey& node) { return isIn(key, node); });
 }
 
 }  // namespace
@@ -66,7 +63,8 @@ DrawnChange nextChange(const NodeStore& nodes, const Selection& wanted, std::siz
   if (steps > 0) return change;
   for (const SelectedNode& node : wanted.nodes()) {
     const std::optional<NodeKey> drawn = nodes.drawnOver(node.key);
-    if (!drawn && nodes.heights(node.key) && nodes.drawnIn(node.key).empty() && !isIn(node.key, change.add)) {
+    if (!drawn && nodes.heights(node.key) && nodes.drawnIn(node.key).empty() &&
+        !isInAny(node.key, change.add)) {
       change.add.push_back(node.key);
     } else if (!node.isLeaf && drawn == node.key && canSplit(nodes, node.key)) {
       const std::array<NodeKey, 4> children = childrenOf(node.key);

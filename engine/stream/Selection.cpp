@@ -6,14 +6,15 @@
 #include <limits>
 #include <tuple>
 
+#include "teren/DetailThreshold.h"
+
 #include "stream/View.h"
 
 namespace teren {
 
 namespace {
 
-constexpr double kStaysSplit = 0.8;  // of the error at which a node is split
-constexpr double kNearest = 0.1;     // [m] no eye is nearer to what it sees
+constexpr double kNearest = 0.1;  // [m] no eye is nearer to what it sees
 
 /// How far a coordinate lies from an interval.
 double away(double low, double high) noexcept {
@@ -108,11 +109,11 @@ double Selection::seen(const NodeKey& key) const {
 bool Selection::split(const NodeKey& key, double tolerance) {
   if (key.level == 0) return true;
   const double error = seen(key);
-  if (!(error > tolerance * (before_.contains(key) ? kStaysSplit : 1.0))) return true;
+  if (!(error > tolerance * exchangeAt(before_.contains(key)))) return true;
   if (left_-- == 0) return false;
   splits_[static_cast<std::size_t>(key.level)].emplace(key, error);
   for (int child = 0; child < 4; ++child) {
-    if (!split({key.level - 1, key.i * 2 + (child & 1), key.j * 2 + (child >> 1)}, tolerance)) return false;
+    if (!split(key.child(child), tolerance)) return false;
   }
   return true;
 }
@@ -147,7 +148,7 @@ void Selection::list(const NodeKey& key, double urgency) {
     return;
   }
   for (int child = 0; child < 4; ++child) {
-    list({key.level - 1, key.i * 2 + (child & 1), key.j * 2 + (child >> 1)}, found->second);
+    list(key.child(child), found->second);
   }
 }
 

@@ -2,7 +2,8 @@
 // engine that follows, at several pixel errors. Percentiles over all choices or updates, after a second of
 // warming up.
 //
-//   bench-selection [SECONDS [DISTANCE]]     of flight at 60 updates a second; [m] seen. 20 and 20000 without.
+//   bench-selection [SECONDS [DISTANCE]]     of flight at 60 updates a second; [m] seen. 20 and 20000
+//   without.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
