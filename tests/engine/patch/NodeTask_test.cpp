@@ -2,6 +2,8 @@
 
 #include <bit>
 #include <random>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -193,6 +195,62 @@ TEST(Bake, StopsWhenProgressSaysSo) {
     const auto result = bake(*world, {0, 0, 8, 8, 0}, options);
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().message, "cancelled");
+  }
+}
+
+/// A field beside layers of every kind.
+std::shared_ptr<const World> worldWithField() {
+  WorldDescription description;
+  description.seed = 12;
+  LayerDescription field, maps;
+  field.generator = "noise";
+  maps.generator = "fault";
+  maps.filters = {{"band", {}}};
+  description.layers = {field, maps};
+  auto world = World::create(description, *PluginRegistry::standard());
+  EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().message);
+  return *world;
+}
+
+TEST(NodeTask, GivesTheCoarserSamplesAroundANodeAsTheNodesOfThatLevelHaveThem) {
+  for (const auto& world : {mixedWorld(), worldWithField()}) {
+    const int n = world->intervals();
+    for (int level = 0; level < world->topLevel() && level < 5; ++level) {
+      BaseMapStore store(std::size_t{64} << 20);
+      for (const auto& [i, j] : {std::pair<std::int64_t, std::int64_t>{-1, 2}, {6, -3}, {-4, -4}, {3, 5}}) {
+        const NodeKey key{level, i, j};
+        SCOPED_TRACE("level " + std::to_string(level) + ", node " + std::to_string(i));
+        NodeTask task(*world, key, store, true);
+        while (!task.step(Slice::until(Slice::Clock::time_point::min()))) {
+        }
+        const HeightMap own =
+            finished(*world, key, store, [] { return Slice::until(Slice::Clock::time_point::min()); });
+        EXPECT_TRUE(sameBits(task.heights(), own));
+        ASSERT_EQ(task.coarser().columns(), n / 2 + 3);
+        for (std::int64_t dj = -1; dj <= 1; ++dj) {
+          for (std::int64_t di = -1; di <= 1; ++di) {
+            const NodeKey above{level + 1, (i >> 1) + di, (j >> 1) + dj};
+            const HeightMap heights = finished(*world, above, store, [] { return Slice::unlimited(); });
+            const std::int64_t west = i * n / 2 - above.i * n, south = j * n / 2 - above.j * n;
+            for (int y = -1; y <= n / 2 + 1; ++y) {
+              for (int x = -1; x <= n / 2 + 1; ++x) {
+                const std::int64_t column = west + x, row = south + y;
+                if (column < 0 || column > n || row < 0 || row > n) continue;
+                ASSERT_EQ(
+                    std::bit_cast<std::uint32_t>(task.coarser()(x + 1, y + 1)),
+                    std::bit_cast<std::uint32_t>(heights(static_cast<int>(column), static_cast<int>(row))))
+                    << x << ", " << y;
+              }
+            }
+          }
+        }
+      }
+    }
+    BaseMapStore store(std::size_t{64} << 20);
+    NodeTask top(*world, {world->topLevel(), 0, 0}, store, true);
+    while (!top.step(Slice::unlimited())) {
+    }
+    EXPECT_EQ(top.coarser().columns(), 0);
   }
 }
 
