@@ -159,7 +159,7 @@ BorderTask::BorderTask(std::vector<HeldNode> nodes, double spacing)
     const Extent extent = extentOf(node.key, intervals_);
     squares_.push_back({(extent.west - origin.west) >> finest, (extent.south - origin.south) >> finest,
                         extent.side >> finest, std::int64_t{1} << (node.key.level - finest),
-                        node.heights.get()});
+                        node.heights.get(), node.heights.coarser(), node.key.level});
   }
   mesh_->level = finest;
   mesh_->originColumn = origin.west;
@@ -289,11 +289,13 @@ std::uint32_t BorderTask::vertexAt(const Place& place) {
   SurfaceVertex vertex;
   vertex.column = static_cast<std::int16_t>(place.x);
   vertex.row = static_cast<std::int16_t>(place.y);
-  vertex.height = (*finest.heights)(static_cast<int>((place.x - finest.x) / finest.step),
-                                    static_cast<int>((place.y - finest.y) / finest.step));
+  const auto column = static_cast<int>((place.x - finest.x) / finest.step);
+  const auto row = static_cast<int>((place.y - finest.y) / finest.step);
+  vertex.height = (*finest.heights)(column, row);
   const PackedNormal normal = normalAt(place);
   vertex.normalX = normal.x;
   vertex.normalY = normal.y;
+  setCoarser(vertex, finest.coarser, finest.level, spacing_ * static_cast<double>(finest.step), column, row);
   addVertex(vertex);
   return number;
 }

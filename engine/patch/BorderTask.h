@@ -50,7 +50,8 @@ class BorderPlan {
 /// the line between two nodes have the finer one's spacing; what a vertex there says depends on its place and
 /// the nodes that meet in it alone, so all borders, seams and corner pieces that share it have equal bits:
 /// the height is stored in the finest node, and the normal is a central difference over the coarsest one's
-/// spacing, in each direction over the coarsest node there. A square of the ring is a fan: along a side from
+/// spacing, in each direction over the coarsest node there; what it draws near to is the finest node's next
+/// coarser surface. A square of the ring is a fan: along a side from
 /// its two inner corners, at a corner of the node from its one; where the line has no more points than the
 /// node itself, it is split as squares are everywhere. Any levels may meet, and any number of nodes along a
 /// side.
@@ -69,6 +70,8 @@ class BorderTask final : public PieceTask {
   struct Square {
     std::int64_t x = 0, y = 0, side = 0, step = 0;
     const HeightMap* heights = nullptr;
+    const HeightMap* coarser = nullptr;  // or null
+    int level = 0;
   };
   static bool contains(const Square& square, const Place& place) noexcept;
   static bool goesBefore(const Square& a, const Square& b) noexcept;

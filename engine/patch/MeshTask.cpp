@@ -70,8 +70,7 @@ bool MeshTask::step(const Slice& slice) {
   return nextRow_ > extent_.rows;
 }
 
-float MeshTask::heightAt(int column, int row) const {
-  // Of a line that two nodes share, the south or west one's copy is read: both have the same bits.
+const NodeHeights& MeshTask::nodeAt(int& column, int& row) const {
   std::size_t node = 0;
   if (column > intervals_) {
     column -= intervals_;
@@ -81,13 +80,17 @@ float MeshTask::heightAt(int column, int row) const {
     row -= intervals_;
     node += 2;
   }
-  return (*block_.nodes[node])(column, row);
+  return block_.nodes[node];
+}
+
+float MeshTask::heightAt(int column, int row) const {
+  const NodeHeights& node = nodeAt(column, row);
+  return (*node)(column, row);
 }
 
 void MeshTask::buildRow(int row) {
-  const int y = extent_.firstRow + row;
   for (int column = 0; column <= extent_.columns; ++column) {
-    const int x = extent_.firstColumn + column;
+    int x = extent_.firstColumn + column, y = extent_.firstRow + row;
     SurfaceVertex vertex;
     vertex.column = static_cast<std::int16_t>(column);
     vertex.row = static_cast<std::int16_t>(row);
@@ -96,6 +99,8 @@ void MeshTask::buildRow(int row) {
                                              heightAt(x, y + 1), spacing_);
     vertex.normalX = normal.x;
     vertex.normalY = normal.y;
+    const NodeHeights& node = nodeAt(x, y);
+    setCoarser(vertex, node.coarser(), block_.key.level, spacing_, x, y);
     addVertex(vertex);
   }
 }

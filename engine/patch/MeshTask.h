@@ -17,7 +17,28 @@
 
 namespace teren {
 
-using NodeHeights = std::shared_ptr<const HeightMap>;
+/// A node's heights, shared, and the coarser samples around it, if there are any (NodeTask.h).
+class NodeHeights {
+ public:
+  NodeHeights() = default;
+  NodeHeights(std::nullptr_t) {}
+  NodeHeights(std::shared_ptr<const HeightMap> own, std::shared_ptr<const HeightMap> coarser = nullptr)
+      : own_(std::move(own)), coarser_(std::move(coarser)) {}
+  NodeHeights(std::shared_ptr<HeightMap> own) : own_(std::move(own)) {}
+
+  const HeightMap& operator*() const noexcept { return *own_; }
+  const HeightMap* operator->() const noexcept { return own_.get(); }
+  const HeightMap* get() const noexcept { return own_.get(); }
+  const HeightMap* coarser() const noexcept { return coarser_.get(); }
+  explicit operator bool() const noexcept { return own_ != nullptr; }
+
+  std::size_t bytes() const noexcept {
+    return own_->bytes() + sizeof(HeightMap) + (coarser_ ? coarser_->bytes() + sizeof(HeightMap) : 0);
+  }
+
+ private:
+  std::shared_ptr<const HeightMap> own_, coarser_;
+};
 
 /// Up to 2 x 2 neighbouring nodes of one level, south-west, south-east, north-west, north-east; those a piece
 /// does not touch may be null. `key` names the south-west one.
@@ -69,6 +90,8 @@ class MeshTask final : public PieceTask {
   bool step(const Slice& slice) override;
 
  private:
+  /// Of a line that two nodes share, the south or west one's copy is read: both have the same bits.
+  const NodeHeights& nodeAt(int& column, int& row) const;
   float heightAt(int column, int row) const;
   void buildRow(int row);
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "teren/HeightMap.h"
 #include "teren/Scene.h"
 #include "teren/Slice.h"
 
@@ -16,6 +17,9 @@ class PieceTask : public SlicedTask {
 
  protected:
   PieceTask();
+  /// Tells a vertex at a sample of a node with these coarser samples, if it has any, what it draws near to.
+  static void setCoarser(SurfaceVertex& vertex, const HeightMap* coarser, int level, double spacing,
+                         int column, int row) noexcept;
   /// Adds a vertex and widens the mesh's range of heights.
   void addVertex(const SurfaceVertex& vertex);
 

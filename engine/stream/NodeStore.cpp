@@ -8,6 +8,7 @@
 
 #include "teren/HeightSampling.h"
 
+#include "patch/CoarserSurface.h"
 #include "patch/NodeGap.h"
 
 namespace teren {
@@ -38,7 +39,7 @@ void NodeStore::insert(const NodeKey& key, NodeHeights heights) {
   assert(heights && heights->columns() == intervals_ + 1);
   NodeHeights& place = *tree_.find(key, LookUp::create);
   assert(!place);
-  heightBytes_ += heights->bytes() + sizeof(HeightMap);
+  heightBytes_ += heights.bytes();
   bends_.emplace(key, static_cast<float>(largestBend(heights->view())));
   place = std::move(heights);
 }
@@ -47,7 +48,7 @@ void NodeStore::erase(const NodeKey& key) {
   assert(!isDrawn(key));
   const NodeHeights held = heights(key);
   if (!held) return;
-  heightBytes_ -= held->bytes() + sizeof(HeightMap);
+  heightBytes_ -= held.bytes();
   tree_.erase(key);
   bends_.erase(key);
 }
@@ -183,7 +184,7 @@ bool NodeStore::isPossible(const DrawnChange& change) const {
   return std::all_of(change.remove.begin(), change.remove.end(),
                      [&](const NodeKey& key) { return isDrawn(key); }) &&
          std::all_of(change.add.begin(), change.add.end(),
-                     [&](const NodeKey& key) { return !isDrawn(key) && heights(key) != nullptr; });
+                     [&](const NodeKey& key) { return !isDrawn(key) && static_cast<bool>(heights(key)); });
 }
 
 bool NodeStore::apply(const DrawnChange& change, std::span<const BuiltPiece> pieces) {
@@ -270,8 +271,12 @@ std::size_t NodeStore::bytes() const noexcept {
 }
 
 std::size_t NodeStore::heldBytes() const noexcept {
-  const auto side = static_cast<std::size_t>(intervals_ + 1);
-  return side * side * sizeof(float) + sizeof(HeightMap) + kTreeBytesPerNode + kBendBytes;
+  const auto grid = [](int side) {
+    return static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * sizeof(float) +
+           sizeof(HeightMap);
+  };
+  return grid(intervals_ + 1) + (withCoarser_ ? grid(CoarserSurface::side(intervals_)) : 0) +
+         kTreeBytesPerNode + kBendBytes;
 }
 
 std::size_t NodeStore::piecesBytes() const noexcept {

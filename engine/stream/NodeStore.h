@@ -68,8 +68,9 @@ struct ChangePlan {
 /// Not thread-safe. Any levels may be drawn side by side.
 class NodeStore {
  public:
-  /// `spacing` [m] of level 0, `intervals` n.
-  NodeStore(double spacing, int intervals) : spacing_(spacing), intervals_(intervals) {}
+  /// `spacing` [m] of level 0, `intervals` n; whether nodes come with coarser samples, for heldBytes().
+  NodeStore(double spacing, int intervals, bool withCoarser = false)
+      : spacing_(spacing), intervals_(intervals), withCoarser_(withCoarser) {}
 
   NodeHeights heights(const NodeKey& key) const;
   /// Looks through the heights for their bend (NodeGap.h): 2 ns a sample.
@@ -142,6 +143,7 @@ class NodeStore {
 
   double spacing_;
   int intervals_;
+  bool withCoarser_;
   PatchTree<NodeHeights> tree_;
   std::unordered_map<NodeKey, float, NodeKeyHash> bends_;  // [m] of the nodes held
   std::size_t heightBytes_ = 0, meshBytes_ = 0, bookkeepingBytes_ = 0;

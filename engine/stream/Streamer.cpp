@@ -51,10 +51,10 @@ double mostRoots(const World& world, const DetailSettings& detail) {
 std::size_t buildBytes(const World& world, const ViewSettings& view) {
   const std::size_t ground = NodeTask::mostBytes(world, 0);
   if (!view.detail) return std::max(ground, NodeTask::mostBytes(world, view.level));
-  std::size_t most = ground;
+  std::size_t most = NodeTask::mostBytes(world, 0, true);
   for (int level = 1;
        level <= Selection::rootLevelFor(view.detail->distance, world.pitch(), coarsestRoot(world)); ++level) {
-    most = std::max(most, NodeTask::mostBytes(world, level));
+    most = std::max(most, NodeTask::mostBytes(world, level, true));
   }
   return most;
 }
@@ -95,7 +95,7 @@ Streamer::Streamer(const World& world, const EngineOptions& options)
       options_(options),
       calibrationBytes_(ErrorCalibration::mostBytes(world)),
       maps_(kMostMapBytes),
-      nodes_(world.spacing(0), world.intervals()),
+      nodes_(world.spacing(0), world.intervals(), options.view.detail.has_value()),
       runner_(options.workers) {
   sizeBuilds();
   if (!options.view.detail) return;
@@ -120,7 +120,7 @@ void Streamer::setDetail(const DetailSettings& detail) {
 }
 
 std::size_t Streamer::leastCap(const World& world, const EngineOptions& options) {
-  const NodeStore nodes(world.spacing(0), world.intervals());
+  const NodeStore nodes(world.spacing(0), world.intervals(), options.view.detail.has_value());
   const std::size_t build = buildBytes(world, options.view);
   const std::size_t drawn = nodes.drawnBytes() + nodes.piecesBytes();
   constexpr std::size_t kGroundNodes = 9, kUniformNodes = 9;
@@ -311,7 +311,7 @@ bool Streamer::isDrawable(const NodeKey& key) const {
 }
 
 bool Streamer::isThere(const NodeKey& key) const {
-  return isDrawable(key) ? nodes_.isDrawn(key) : nodes_.heights(key) != nullptr;
+  return isDrawable(key) ? nodes_.isDrawn(key) : static_cast<bool>(nodes_.heights(key));
 }
 
 // ---- Working
@@ -379,7 +379,10 @@ void Streamer::integrate(TaskRunner::Finished finished) {
   if (build == builds_.end() || build->second.ticket != finished.ticket) return;  // cancelled meanwhile
   if (build->second.isGround) --groundBuilds_;
   builds_.erase(build);
-  nodes_.insert(key, std::make_shared<const HeightMap>(task.takeHeights()));
+  auto heights = std::make_shared<const HeightMap>(task.takeHeights());
+  auto coarser =
+      task.coarser().samples().empty() ? nullptr : std::make_shared<const HeightMap>(task.takeCoarser());
+  nodes_.insert(key, {std::move(heights), std::move(coarser)});
   mayRefine_ = selection_.has_value();
   if (!isDrawable(key)) {
     --missing_;
@@ -466,8 +469,8 @@ bool Streamer::startBuild() {
   }
   const NodeKey& key = wanted_[nextWanted_];
   const auto rank = static_cast<std::int64_t>(nextWanted_);
-  const auto ticket =
-      runner_.submit(std::make_unique<NodeTask>(world_, key, maps_), ground ? kGroundUrgency + rank : rank);
+  const auto ticket = runner_.submit(std::make_unique<NodeTask>(world_, key, maps_, selection_.has_value()),
+                                     ground ? kGroundUrgency + rank : rank);
   builds_.emplace(key, Build{ticket, ground});
   if (ground) ++groundBuilds_;
   ++nextWanted_;

@@ -13,9 +13,11 @@
 #include <gtest/gtest.h>
 
 #include "teren/Hash.h"
+#include "teren/HeightSampling.h"
 #include "teren/SceneQuery.h"
 
 #include "height/Surface.h"
+#include "patch/CoarserSurface.h"
 #include "stream/JoinTask.h"
 #include "stream/NodeStore.h"
 
@@ -24,18 +26,33 @@ namespace {
 
 using Place = std::pair<std::int64_t, std::int64_t>;  // column, row in level-0 samples
 
-/// Heights that no two nodes agree on anywhere, but equals of a level on the line they share.
+/// A height [m] that depends on a place and a level, and on nothing else in any way one could guess.
+float heightAt(int level, std::int64_t column, std::int64_t row, std::uint64_t seed) {
+  const std::uint64_t place = hashWith(
+      hashWith(hashWith(seed, static_cast<std::uint64_t>(level)), static_cast<std::uint64_t>(column)),
+      static_cast<std::uint64_t>(row));
+  return static_cast<float>(place >> 40) * 0x1p-14F;
+}
+
+/// Heights that no two nodes agree on anywhere, but equals of a level on the line they share; with those of
+/// the next coarser level around them.
 NodeHeights heightsOf(const NodeKey& key, int intervals, std::uint64_t seed) {
   auto heights = std::make_shared<HeightMap>(intervals + 1, intervals + 1);
   for (int row = 0; row <= intervals; ++row) {
     for (int column = 0; column <= intervals; ++column) {
-      const std::uint64_t place = hashWith(hashWith(hashWith(seed, static_cast<std::uint64_t>(key.level)),
-                                                    static_cast<std::uint64_t>(key.i * intervals + column)),
-                                           static_cast<std::uint64_t>(key.j * intervals + row));
-      (*heights)(column, row) = static_cast<float>(place >> 40) * 0x1p-14F;
+      (*heights)(column, row) =
+          heightAt(key.level, key.i * intervals + column, key.j * intervals + row, seed);
     }
   }
-  return heights;
+  const int side = CoarserSurface::side(intervals);
+  auto coarser = std::make_shared<HeightMap>(side, side);
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      (*coarser)(column, row) =
+          heightAt(key.level + 1, key.i * intervals / 2 + column - 1, key.j * intervals / 2 + row - 1, seed);
+    }
+  }
+  return {std::move(heights), std::move(coarser)};
 }
 
 /// A square of `side` x `side` nodes of level `top`, split at random down to level 0.
@@ -51,6 +68,7 @@ class MixedSurface {
     }
   }
   const std::vector<NodeKey>& leaves() const { return leaves_; }
+  std::uint64_t seed() const { return seed_; }
   NodeStore& store() { return store_; }
   NodeHeights hold(const NodeKey& key) {
     if (!store_.heights(key)) store_.insert(key, heightsOf(key, intervals_, seed_));
@@ -212,6 +230,43 @@ TEST_P(MixedLevels, SharedVerticesAreEqualBitForBitAndStoredInTheFinestNodeThere
   });
 }
 
+TEST_P(MixedLevels, EveryVertexDrawsNearToTheNextCoarserSurfaceOfTheFinestNodeThere) {
+  const int intervals = GetParam().intervals;
+  forEachMix([&](MixedSurface& surface) {
+    struct Target {
+      int level;
+      double height;
+    };
+    std::map<Place, Target> finest;
+    for (int level = GetParam().top; level >= 0; --level) {
+      for (const NodeKey& key : surface.leaves()) {
+        if (key.level != level) continue;
+        const NodeKey above = key.parent();
+        const NodeHeights heights = heightsOf(above, intervals, surface.seed());
+        const auto west = static_cast<double>((key.i - 2 * above.i) * intervals);
+        const auto south = static_cast<double>((key.j - 2 * above.j) * intervals);
+        for (int row = 0; row <= intervals; ++row) {
+          for (int column = 0; column <= intervals; ++column) {
+            const Place place{(key.i * intervals + column) << level, (key.j * intervals + row) << level};
+            finest.insert_or_assign(place, Target{level, triangleHeight(heights->view(), (west + column) / 2,
+                                                                        (south + row) / 2)});
+          }
+        }
+      }
+    }
+    const auto scene = surface.store().snapshot();
+    for (const auto& mesh : scene->meshes()) {
+      for (const SurfaceVertex& vertex : mesh->vertices) {
+        const Target& target = finest.at(placeOf(*mesh, vertex));
+        ASSERT_EQ(vertex.level(), target.level);
+        ASSERT_NEAR(vertex.coarserHeight, target.height, 1e-4);
+        ASSERT_GE(vertex.coarserHeight, mesh->minHeight);
+        ASSERT_LE(vertex.coarserHeight, mesh->maxHeight);
+      }
+    }
+  });
+}
+
 TEST_P(MixedLevels, TheDrawnHeightIsThatOfTheTriangleOverThePlace) {
   const int intervals = GetParam().intervals;
   forEachMix([&](MixedSurface& surface) {
@@ -278,6 +333,48 @@ INSTANTIATE_TEST_SUITE_P(Mixes, MixedLevels,
                            return "intervals" + std::to_string(mix.param.intervals) + "levels" +
                                   std::to_string(mix.param.top + 1);
                          });
+
+TEST(CoarserSurface, AtACoarserSampleIsTheVertexThatNodesOfThatLevelHaveThere) {
+  constexpr int kIntervals = 8;
+  constexpr std::uint64_t kSeed = 3;
+  const auto drawn = [&](int level, std::int64_t side) {
+    NodeStore store(0.5, kIntervals, true);
+    DrawnChange change;
+    for (std::int64_t j = 0; j < side; ++j) {
+      for (std::int64_t i = 0; i < side; ++i) {
+        store.insert(change.add.emplace_back(NodeKey{level, i, j}),
+                     heightsOf({level, i, j}, kIntervals, kSeed));
+      }
+    }
+    JoinTask join(store, change);
+    while (!join.step(Slice::unlimited())) {
+    }
+    EXPECT_TRUE(store.apply(join.change(), join.pieces()));
+    std::map<Place, SurfaceVertex> vertices;
+    const auto scene = store.snapshot();
+    for (const auto& mesh : scene->meshes()) {
+      for (const SurfaceVertex& vertex : mesh->vertices) vertices.emplace(placeOf(*mesh, vertex), vertex);
+    }
+    return vertices;
+  };
+  const std::map<Place, SurfaceVertex> fine = drawn(0, 6), coarse = drawn(1, 3);
+  int compared = 0, between = 0;
+  for (const auto& [place, vertex] : fine) {
+    const auto [column, row] = place;
+    const bool alongX = column % 2 != 0, alongY = row % 2 != 0;
+    const auto a = coarse.find({column - alongX, row - alongY}),
+               b = coarse.find({column + alongX, row + alongY});
+    if (a == coarse.end() || b == coarse.end()) continue;
+    ++(alongX || alongY ? between : compared);
+    const auto middle = [](int x, int y) { return (x + y) / 2.0; };
+    EXPECT_EQ(vertex.coarserHeight, 0.5F * (a->second.height + b->second.height));
+    EXPECT_NEAR(vertex.coarserX(), middle(a->second.normalX, b->second.normalX), 8.5);
+    EXPECT_NEAR(vertex.coarserNormalY, middle(a->second.normalY, b->second.normalY), 0.5);
+    EXPECT_EQ(vertex.level(), 0);
+  }
+  EXPECT_GT(compared, 400);
+  EXPECT_GT(between, 1200);
+}
 
 /// A node of one level among nodes of another, by heights given as a function of the level-0 sample.
 template <class Shape>
