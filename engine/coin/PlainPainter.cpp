@@ -75,21 +75,23 @@ void drawWater(const Picture& picture, const SbVec3f& eye, float level) {
 
 }  // namespace
 
-std::vector<PlainPainter::Vertex> PlainPainter::colour(const Mesh& mesh, const Picture& picture) {
-  std::vector<Vertex> vertices;
-  vertices.reserve(mesh.vertices.size());
-  for (const SurfaceVertex& vertex : mesh.vertices) {
+void PlainPainter::colour(const Mesh& mesh, const Picture& picture, Drawn& drawn) {
+  drawn.vertices.resize(mesh.vertices.size());
+  for (std::size_t k = 0; k < drawn.vertices.size(); ++k) {
+    const SurfaceVertex& vertex = mesh.vertices[k];
     const float x = static_cast<float>(vertex.normalX) / 32767.0F;
     const float y = static_cast<float>(vertex.normalY) / 32767.0F;
     const float up = std::sqrt(std::max(1.0F - x * x - y * y, 1e-4F));
     const float direct = std::max(SbVec3f(x, y, up).dot(picture.sun), 0.0F);
+    if (drawn.tint) {
+      drawn.vertices[k].colour = asBytes(*drawn.tint * (0.45F + 0.55F * direct));
+      continue;
+    }
     const SbVec3f light = SbVec3f(0.40F, 0.46F, 0.56F) + picture.sunlight * direct;
     const SbVec3f colour =
         groundColour(vertex.height, std::sqrt(x * x + y * y) / up, picture.waterLevel - vertex.height);
-    vertices.push_back(
-        {0.0F, 0.0F, 0.0F, asBytes({colour[0] * light[0], colour[1] * light[1], colour[2] * light[2]})});
+    drawn.vertices[k].colour = asBytes({colour[0] * light[0], colour[1] * light[1], colour[2] * light[2]});
   }
-  return vertices;
 }
 
 void PlainPainter::place(const Mesh& mesh, std::vector<Vertex>& vertices) const {
@@ -110,7 +112,7 @@ void PlainPainter::takeLook(const Picture& picture) {
   const double spacing = picture.placement.spacing();
   if (sun_ != picture.sun || sunlight_ != picture.sunlight || waterLevel_ != picture.waterLevel ||
       spacing_ != spacing) {
-    vertices_.clear();
+    drawn_.clear();
     sun_ = picture.sun;
     sunlight_ = picture.sunlight;
     waterLevel_ = picture.waterLevel;
@@ -119,7 +121,7 @@ void PlainPainter::takeLook(const Picture& picture) {
   const Anchor anchor = picture.placement.anchorNear(picture.eye, kAnchorStep);
   if (anchor == anchor_) return;
   anchor_ = anchor;
-  for (auto& [mesh, vertices] : vertices_) place(*mesh, vertices);
+  for (auto& [mesh, drawn] : drawn_) place(*mesh, drawn.vertices);
 }
 
 void PlainPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
@@ -151,13 +153,17 @@ void PlainPainter::draw(const Picture& picture, std::span<const Mesh* const> mes
 void PlainPainter::drawGround(const Picture& picture, std::span<const Mesh* const> meshes) {
   glEnableClientState(GL_VERTEX_ARRAY);
   glEnableClientState(GL_COLOR_ARRAY);
-  for (const Mesh* mesh : meshes) {
-    auto found = vertices_.find(mesh);
-    if (found == vertices_.end()) {
-      found = vertices_.emplace(mesh, colour(*mesh, picture)).first;
-      place(*mesh, found->second);
+  for (std::size_t index = 0; index < meshes.size(); ++index) {
+    const Mesh* mesh = meshes[index];
+    const auto tint = picture.tints.empty() ? std::nullopt : std::optional(picture.tints[index]);
+    const auto [found, isNew] = drawn_.try_emplace(mesh);
+    Drawn& drawn = found->second;
+    if (isNew || drawn.tint != tint) {
+      drawn.tint = tint;
+      colour(*mesh, picture, drawn);
     }
-    const std::vector<Vertex>& vertices = found->second;
+    if (isNew) place(*mesh, drawn.vertices);
+    const std::vector<Vertex>& vertices = drawn.vertices;
     glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &vertices.front().x);
     glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), vertices.front().colour.data());
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh->indices->size()), GL_UNSIGNED_INT,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace teren {
 
 /// Keeps, in the program's own memory, the vertices of each mesh it has drawn: positions relative to an
 /// anchor, made from whole numbers as the shaders do it, so that shared vertices are equal bit for bit. They
-/// are placed again when the anchor changes, every kAnchorStep metres or so, and coloured again when the sun
-/// or the water level does; 16 bytes a vertex.
+/// are placed again when the anchor changes, every kAnchorStep metres or so, and coloured again when the sun,
+/// the water level or their mesh's tint does; 16 bytes a vertex.
 class PlainPainter final : public TerrainPainter {
  public:
   PlainPainter() = default;
@@ -22,8 +23,8 @@ class PlainPainter final : public TerrainPainter {
 
   bool knowsLogarithmicDepth() const noexcept override { return false; }
   void draw(const Picture& picture, std::span<const Mesh* const> meshes) override;
-  void forget(const Mesh& mesh) override { vertices_.erase(&mesh); }
-  void release() override { vertices_.clear(); }
+  void forget(const Mesh& mesh) override { drawn_.erase(&mesh); }
+  void release() override { drawn_.clear(); }
   std::size_t bytes() const noexcept override { return 0; }
 
  private:
@@ -31,7 +32,11 @@ class PlainPainter final : public TerrainPainter {
     float x, y, z;
     std::array<std::uint8_t, 4> colour;
   };
-  static std::vector<Vertex> colour(const Mesh& mesh, const Picture& picture);
+  struct Drawn {
+    std::vector<Vertex> vertices;
+    std::optional<SbColor> tint;  // that they have
+  };
+  static void colour(const Mesh& mesh, const Picture& picture, Drawn& drawn);
   void place(const Mesh& mesh, std::vector<Vertex>& vertices) const;
   void takeLook(const Picture& picture);
   void drawGround(const Picture& picture, std::span<const Mesh* const> meshes);
@@ -41,7 +46,7 @@ class PlainPainter final : public TerrainPainter {
   SbVec3f sunlight_{0.0F, 0.0F, 0.0F};
   float waterLevel_ = 0.0F;
   double spacing_ = 0.0;
-  std::unordered_map<const Mesh*, std::vector<Vertex>> vertices_;
+  std::unordered_map<const Mesh*, Drawn> drawn_;
 };
 
 }  // namespace teren

@@ -220,6 +220,8 @@ Result<void> ShaderPainter::link(Programs& programs, const char* depth) {
   };
   if (Result<void> made = make(programs.ground, kGroundVertexShader, kGroundFragmentShader, kGround); !made)
     return made;
+  if (Result<void> made = make(programs.tinted, kGroundVertexShader, kTintedFragmentShader, kGround); !made)
+    return made;
   if (Result<void> made = make(programs.water, kWaterVertexShader, kWaterFragmentShader, kWater); !made)
     return made;
   return make(programs.deep, kWaterVertexShader, kDeepFragmentShader, kWater);
@@ -228,7 +230,9 @@ Result<void> ShaderPainter::link(Programs& programs, const char* depth) {
 void ShaderPainter::release() {
   buffers_.clear();
   for (Programs* programs : {&ordinary_, &logarithmic_}) {
-    for (ShaderProgram* program : {&programs->ground, &programs->water, &programs->deep}) program->release();
+    for (ShaderProgram* program : {&programs->ground, &programs->tinted, &programs->water, &programs->deep}) {
+      program->release();
+    }
   }
   glDeleteTextures(1, &noise_);
   glDeleteBuffers(1, &waterVertices_);
@@ -259,7 +263,8 @@ const ShaderPainter::Programs& ShaderPainter::prepare(const Picture& picture, co
   const SbVec3f eye(picture.eye - picture.placement.position(anchor));
   SbDPMatrix toClip = picture.toEye;
   toClip.multRight(picture.toClip);
-  for (const ShaderProgram* program : {&programs.ground, &programs.water, &programs.deep}) {
+  const ShaderProgram& ground = picture.tints.empty() ? programs.ground : programs.tinted;
+  for (const ShaderProgram* program : {&ground, &programs.water, &programs.deep}) {
     program->use();
     program->set("toClip", toClip);
     program->set("spacing", static_cast<float>(picture.placement.spacing()));
@@ -290,18 +295,20 @@ void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> me
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(picture.toEye.det3() < 0.0 ? GL_CW : GL_CCW);
-  drawGround(programs.ground, anchor.sample, meshes);
+  drawGround(picture.tints.empty() ? programs.ground : programs.tinted, anchor.sample, meshes, picture.tints);
   glDisable(GL_CULL_FACE);
   if (picture.water) drawClearWater(programs.water);
 }
 
 void ShaderPainter::drawGround(const ShaderProgram& program, const Sample& anchor,
-                               std::span<const Mesh* const> meshes) {
+                               std::span<const Mesh* const> meshes, std::span<const SbColor> tints) {
   constexpr std::int64_t kExact = std::int64_t{1} << 23;  // leaves room for the mesh itself below 2^24
   glDisable(GL_BLEND);
   program.use();
   for (const GLuint attribute : {kCell, kHeight, kSlope}) glEnableVertexAttribArray(attribute);
-  for (const Mesh* mesh : meshes) {
+  for (std::size_t index = 0; index < meshes.size(); ++index) {
+    const Mesh* mesh = meshes[index];
+    if (!tints.empty()) program.set("tint", tints[index]);
     const std::int64_t column = mesh->originColumn - anchor.column;
     const std::int64_t row = mesh->originRow - anchor.row;
     if (std::abs(column) > kExact || std::abs(row) > kExact) continue;  // thousands of kilometres away

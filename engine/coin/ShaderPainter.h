@@ -44,13 +44,15 @@ class ShaderPainter final : public TerrainPainter {
  private:
   ShaderPainter() = default;
   struct Programs {
-    ShaderProgram ground, water, deep;
+    ShaderProgram ground, tinted, water, deep;
   };
   static Result<void> link(Programs& programs, const char* depth);
   const Programs& prepare(const Picture& picture, const Anchor& anchor) const;
   void makeNoise();
   void makeWater();
-  void drawGround(const ShaderProgram& program, const Sample& anchor, std::span<const Mesh* const> meshes);
+  /// `tints`: of every mesh, or empty where the program has none.
+  void drawGround(const ShaderProgram& program, const Sample& anchor, std::span<const Mesh* const> meshes,
+                  std::span<const SbColor> tints);
   /// Before the ground: the opaque water, and behind everything what one sees deep in the clear water.
   void drawFarWater(const Programs& programs) const;
   /// After the ground.

@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <Inventor/SbTime.h>
 #include <Inventor/SoInput.h>
@@ -110,6 +111,8 @@ class SoTerrain::Private {
   float distance = 1500.0F;  // [m] the last good one
   std::string worldFile;     // where the file named by `world` is
   SbString fieldError, originError, budgetError, hazeError;
+  std::function<SbColor(const teren::Mesh&)> tint;
+  std::vector<SbColor> tints;  // of the meshes of the last traversal
   std::size_t drawnTriangles = 0;
   bool drewLogarithmicDepth = false;
 };
@@ -332,6 +335,11 @@ void SoTerrain::setScene(std::shared_ptr<const teren::Scene> scene) {
   private_->show(scene, continued);
 }
 
+void SoTerrain::setTint(std::function<SbColor(const teren::Mesh&)> tint) {
+  private_->tint = std::move(tint);
+  touch();
+}
+
 std::shared_ptr<const teren::Scene> SoTerrain::scene() const {
   return private_->children.scene();
 }
@@ -486,6 +494,11 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
     std::erase_if(meshes, [&](const teren::Mesh* mesh) { return teren::isLostInWater(*mesh, picture); });
   }
   for (const teren::Mesh* mesh : meshes) private_->drawnTriangles += mesh->indices->size() / 3;
+  private_->tints.clear();
+  if (private_->tint) {
+    for (const teren::Mesh* mesh : meshes) private_->tints.push_back(private_->tint(*mesh));
+  }
+  picture.tints = private_->tints;
   const auto context = static_cast<std::uint32_t>(SoGLCacheContextElement::get(state));
   private_->drewLogarithmicDepth = private_->renderer.draw(context, picture, meshes);
   if (private_->source.engine() != nullptr) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 
+#include <Inventor/SbColor.h>
 #include <Inventor/fields/SoMFString.h>
 #include <Inventor/fields/SoSFBool.h>
 #include <Inventor/fields/SoSFColor.h>
@@ -17,6 +19,7 @@
 namespace teren {
 class Engine;
 class Scene;
+struct Mesh;
 }  // namespace teren
 
 /// Draws a Teren landscape, x east, y north, z up, in metres, with its water and its haze.
@@ -25,7 +28,8 @@ class Scene;
 /// * by its fields alone, as in an .iv file. The node then owns a teren::Engine whose viewpoint is the eye of
 /// the
 ///   last GL traversal, and works at what is missing from a timer of its own, for at most `frameBudget` at a
-///   time, never inside a traversal. The timer rests while nothing is missing and the eye stands still. With
+///   time, never inside a traversal. The timer rests while nothing is missing or still to be
+///   measured and the eye stands still. With
 ///   several viewers the landscape follows whichever drew last.
 /// * by a program that drives an engine of its own and calls setScene() after every Engine::update().
 ///
@@ -106,6 +110,9 @@ class SoTerrain : public SoNode {
   /// view level and the budget are ignored (viewDistance is the haze's). Cheap when the snapshot is the one
   /// shown. Snapshots must come from one engine, or be empty in between. nullptr: back to the fields.
   void setScene(std::shared_ptr<const teren::Scene> scene);
+  /// From the next traversal on each mesh in sight is drawn in the colour that the function has for it, lit,
+  /// instead of with what grows there; without a function, as land looks. Asked at every GL traversal.
+  void setTint(std::function<SbColor(const teren::Mesh&)> tint);
   /// The snapshot shown, never null.
   std::shared_ptr<const teren::Scene> scene() const;
 

@@ -40,6 +40,8 @@ struct Picture {
   SbColor haze{1.0F, 1.0F, 1.0F};
   /// Of the depth as LogarithmicDepth.h has it; empty: the ordinary depth.
   std::optional<SbVec2f> depthScale = {};
+  /// One for each mesh to be drawn, in place of what grows there; empty: the land as it looks.
+  std::span<const SbColor> tints = {};
 };
 
 /// Draws meshes in one GL context and keeps what that takes. All members but forget() and bytes() need the

@@ -94,6 +94,19 @@ void main() {
 }
 )";
 
+/// For the same vertices: each mesh in a colour of its own, lit, in so thin a haze that the colour can be
+/// told to the end of the view.
+inline constexpr char kTintedFragmentShader[] = R"(
+uniform vec3 tint;
+uniform vec3 haze;
+varying vec4 ground;  // height, gradient, sunlight, haze
+
+void main() {
+  gl_FragColor = vec4(mix(tint * (0.45 + 0.55 * ground.z), haze, 0.4 * ground.w), 1.0);
+  writeDepth();
+}
+)";
+
 /// A disc around the eye at the water's level.
 inline constexpr char kWaterVertexShader[] = R"(#version 120
 attribute vec2 cell;  // in the unit disc

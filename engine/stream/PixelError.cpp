@@ -84,13 +84,15 @@ double lensPixels(int rows, double fieldOfView) noexcept {
   return rows / (2.0 * std::tan(0.5 * fieldOfView));
 }
 
+double pixelError(const World& world, const Mesh& mesh, const Eye& eye) {
+  const double error = drawnError(world, mesh);
+  return error > 0.0 ? error / distanceOf(world, mesh, eye) * eye.lensPixels : 0.0;
+}
+
 PixelError pixelError(const World& world, const Scene& scene, const Eye& eye) {
   std::vector<double> pixels;
   pixels.reserve(scene.meshes().size());
-  for (const auto& mesh : scene.meshes()) {
-    const double error = drawnError(world, *mesh);
-    pixels.push_back(error > 0.0 ? error / distanceOf(world, *mesh, eye) * eye.lensPixels : 0.0);
-  }
+  for (const auto& mesh : scene.meshes()) pixels.push_back(pixelError(world, *mesh, eye));
   if (pixels.empty()) return {};
   const auto rank = pixels.begin() + static_cast<std::ptrdiff_t>((pixels.size() * 99 + 99) / 100 - 1);
   std::nth_element(pixels.begin(), rank, pixels.end());

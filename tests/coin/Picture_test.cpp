@@ -132,6 +132,39 @@ TEST(Picture, ShowsTheSeaWhereItsBedIsOutsideTheView) {
   EXPECT_EQ(backgroundPixels(picture), 0);
 }
 
+/// Flat ground of 2 x 2 meshes, the western ones red and the eastern ones green, from above.
+void expectRedAndGreen(const char* how) {
+  const Stage stage;
+  stage.terrain->waterLevel = -1e6F;
+  stage.terrain->viewDistance = 5000.0F;
+  stage.terrain->setScene(makeScene({.side = 2, .intervals = 8}));  // 32 m
+  stage.look(SbVec3f(16.0F, 16.0F, 60.0F), 0.0, -90.0);
+  OffscreenView view(64, 64);
+  const auto isTinted = [&view, &stage, how](bool wanted) {
+    const QImage picture = view.picture(stage.root, kMagenta);
+    for (const int y : {20, 32, 44}) {
+      const QColor west = picture.pixelColor(24, y), east = picture.pixelColor(40, y);
+      EXPECT_EQ(west.red() > 100 && west.green() < 40 && west.blue() < 40, wanted) << how << " " << y;
+      EXPECT_EQ(east.green() > 100 && east.red() < 40 && east.blue() < 40, wanted) << how << " " << y;
+    }
+  };
+  isTinted(false);
+  stage.terrain->setTint([](const Mesh& mesh) {
+    return mesh.originColumn == 0 ? SbColor(1.0F, 0.0F, 0.0F) : SbColor(0.0F, 1.0F, 0.0F);
+  });
+  isTinted(true);
+  stage.terrain->setTint([](const Mesh&) { return SbColor(0.0F, 0.0F, 1.0F); });
+  isTinted(false);
+  stage.terrain->setTint({});
+  isTinted(false);
+}
+
+TEST(Picture, ShowsEachMeshInTheColourItIsTinted) {
+  expectRedAndGreen("with shaders");
+  const WithoutShaders plain;
+  expectRedAndGreen("without shaders");
+}
+
 /// The standard world at many levels, chosen for one eye; then seen from others, wherever its levels meet.
 TEST(Picture, OfManyLevelsShowsNoBackgroundThroughTheGroundFromAnywhere) {
   const Stage stage;

@@ -24,18 +24,21 @@ struct Eye {
 /// Of a picture `rows` pixels high with a field of view of `fieldOfView` [rad] from its bottom to its top.
 double lensPixels(int rows, double fieldOfView) noexcept;
 
+/// [pixel] What a mesh's error looks like from the eye: error / distance * lensPixels, with the distance of
+/// the eye from the mesh in three dimensions, or of the boxes around its triangles where the mesh is nearer
+/// than it is wide, and at least kNearestGround. An upper bound in the middle of the picture for what one
+/// sees from the side; towards its corners perspective stretches everything (by 1 / cos^2 of the angle).
+/// O(1), O(triangles) where the mesh is near.
+double pixelError(const World& world, const Mesh& mesh, const Eye& eye);
+inline constexpr double kNearestGround = 1.0;  ///< [m]
+
 /// [pixel] Over all meshes of a scene, in the picture or not.
 struct PixelError {
   double p99 = 0.0;  ///< the smallest value that at least 99 % of the meshes do not exceed
   double max = 0.0;
 };
 
-/// What the meshes' errors look like from the eye: error / distance * lensPixels, with the distance of the
-/// eye from the mesh in three dimensions, or of the boxes around its triangles where the mesh is nearer than
-/// it is wide, and at least kNearestGround. An upper bound in the middle of the picture for what one sees
-/// from the side; towards its corners perspective stretches everything (by 1 / cos^2 of the angle).
-/// O(meshes), and O(triangles) of near ones: about 0.2 ms for a scene of 10^6 triangles.
+/// Of all meshes of a scene: about 0.2 ms for 10^6 triangles.
 PixelError pixelError(const World& world, const Scene& scene, const Eye& eye);
-inline constexpr double kNearestGround = 1.0;  ///< [m]
 
 }  // namespace teren
