@@ -10,8 +10,8 @@
 #include "apps/fly/DepthShader.h"
 #include "apps/fly/Flight.h"
 #include "apps/fly/ObjectModel.h"
-#include "apps/fly/SceneZero.h"
 #include "apps/fly/SkyDome.h"
+#include "coin/SceneZero.h"
 
 class SoAction;
 class SoPerspectiveCamera;

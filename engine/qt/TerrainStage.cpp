@@ -44,15 +44,14 @@ TerrainStage::~TerrainStage() {
 }
 
 void TerrainStage::look(const Viewer& viewer, double height, double pitch) {
-  const Position zero{viewer.position.i, viewer.position.j, 0.0, 0.0};
-  if (zero != zero_ || pitch != pitch_) {
-    zero_ = zero;
-    pitch_ = pitch;
-    terrain_->origin = SbVec3d(zero.x(pitch), zero.y(pitch), 0.0);
+  const bool otherPitch = std::exchange(pitch_, pitch) != pitch;
+  if (zero_.follow(viewer.position, height, pitch) || otherPitch) {
+    const Position& zero = zero_.position();
+    terrain_->origin = SbVec3d(zero.x(pitch), zero.y(pitch), zero_.height());
   }
-  const Offset away = offset(zero_, viewer.position, pitch);
-  camera_->position =
-      SbVec3f(static_cast<float>(away.east), static_cast<float>(away.north), static_cast<float>(height));
+  const Offset away = offset(zero_.position(), viewer.position, pitch);
+  camera_->position = SbVec3f(static_cast<float>(away.east), static_cast<float>(away.north),
+                              static_cast<float>(height - zero_.height()));
   // The camera of Inventor looks down its -z axis with y up; here it rests looking north with z up.
   const auto up = static_cast<float>(std::numbers::pi / 2.0 + viewer.pitch);
   const auto turn = static_cast<float>(-std::remainder(viewer.heading, 2.0 * std::numbers::pi));
@@ -65,6 +64,10 @@ void TerrainStage::setViewDistance(double distance) {
   if (terrain_->viewDistance.getValue() == haze) return;
   terrain_->viewDistance = haze;
   camera_->farDistance = static_cast<float>(kFarthestFactor * distance);
+}
+
+double TerrainStage::fieldOfView() const {
+  return static_cast<double>(camera_->heightAngle.getValue());
 }
 
 void TerrainStage::show(std::shared_ptr<const Scene> scene, bool continued) {
@@ -84,9 +87,9 @@ Ray TerrainStage::sight(const SbVec2f& point, const SbVec2s& size) const {
   const SbVec3d begin(line.getPosition()), way(line.getDirection());
   Ray ray;
   ray.length = static_cast<double>(camera_->farDistance.getValue());
-  ray.height = begin[2];
+  ray.height = begin[2] + zero_.height();
   ray.direction = {way[0], way[1], way[2]};
-  if (const Result<Position> from = zero_.movedBy(begin[0], begin[1], pitch_)) {
+  if (const Result<Position> from = zero_.position().movedBy(begin[0], begin[1], pitch_)) {
     ray.from = *from;
   } else {
     ray.length = 0.0;  // beyond the world's end there is nothing to see

@@ -7,6 +7,7 @@
 #include "teren/Scene.h"
 #include "teren/SceneQuery.h"
 
+#include "coin/SceneZero.h"
 #include "qt/Viewer.h"
 
 class SbVec2f;
@@ -17,8 +18,8 @@ class SoTerrain;
 
 namespace teren {
 
-/// Scene coordinates count from the corner of the eye's patch, so that what is near the eye is exact wherever
-/// in the world it is. Make it after SoTerrain::initClass.
+/// Scene coordinates count from a place near the eye, so that what is near it is exact wherever in the world,
+/// and however high, it is. Make it after SoTerrain::initClass.
 class TerrainStage {
  public:
   TerrainStage();
@@ -33,6 +34,7 @@ class TerrainStage {
   void look(const Viewer& viewer, double height, double pitch);
   /// Puts the haze, and the end of what the camera sees, behind this distance [m].
   void setViewDistance(double distance);
+  double fieldOfView() const;  ///< [rad] of the picture's height
   /// `continued`: from the same engine as the one before.
   void show(std::shared_ptr<const Scene> scene, bool continued);
 
@@ -47,7 +49,7 @@ class TerrainStage {
   SoSeparator* root_;  // referenced
   SoPerspectiveCamera* camera_;
   SoTerrain* terrain_;
-  Position zero_;       // of the scene
+  SceneZero zero_;
   double pitch_ = 1.0;  // [m] of the world
 };
 

@@ -18,8 +18,8 @@
 #include "teren/Hash.h"
 #include "teren/Position.h"
 
-#include "apps/fly/SceneZero.h"
 #include "coin/OpenGL.h"
+#include "coin/SceneZero.h"
 #include "coin/SoTerrain.h"
 #include "tests/coin/OffscreenView.h"
 #include "tests/coin/Stage.h"

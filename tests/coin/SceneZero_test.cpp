@@ -1,4 +1,4 @@
-#include "apps/fly/SceneZero.h"
+#include "coin/SceneZero.h"
 
 #include <cmath>
 
