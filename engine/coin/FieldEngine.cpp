@@ -59,7 +59,8 @@ bool FieldEngine::tellPicture() {
 bool FieldEngine::update(double dt, std::chrono::nanoseconds budget) {
   assert(engine_);
   engine_->update(dt, budget);
-  return engine_->figures().pending > 0;
+  const EngineFigures figures = engine_->figures();
+  return figures.pending > 0 || figures.measuring;
 }
 
 void FieldEngine::settle() {

@@ -34,7 +34,7 @@ class FieldEngine {
   bool fitPicture(double lines, double fieldOfView);
 
   /// One update of the engine (there must be one); whether it should be followed by another although the eye
-  /// stands still.
+  /// stands still: something is missing, or is still to be measured.
   bool update(double dt, std::chrono::nanoseconds budget);
   void settle();
 

@@ -77,6 +77,8 @@ class TerrainWidget::Private {
   /// True where there is something new to draw.
   bool showEngine();
   void look();
+  /// Tells the engine the size of the picture, which detail by error depends on.
+  void fitDetail();
   void drawn();
   /// Emits what has changed; the receivers may do anything to the widget, deleting it included.
   void tell(bool resting);
@@ -190,6 +192,7 @@ void TerrainWidget::Private::work() {
   bool changed = false;
   if (engine) {
     engine->setRendererBytes(rendererBytes);
+    fitDetail();
     engine->update(0.0, budget);
     changed = showEngine();
     look();
@@ -198,7 +201,8 @@ void TerrainWidget::Private::work() {
     --framesToDraw;
     if (area) area->scheduleRedraw();
   }
-  const bool resting = framesToDraw == 0 && !changed && (!engine || engine->figures().pending == 0);
+  const EngineFigures figures = widget.figures();
+  const bool resting = framesToDraw == 0 && !changed && figures.pending == 0 && !figures.measuring;
   if (resting) timer.stop();
   tell(resting);
 }
@@ -221,6 +225,15 @@ void TerrainWidget::Private::look() {
   ViewSettings view = options.view;
   if (const int drawnRadius = engine->figures().radius; drawnRadius > 0) view.radius = drawnRadius;
   stage.setViewDistance(view.reach(*world));
+}
+
+void TerrainWidget::Private::fitDetail() {
+  const QWidget* seen = canvas();
+  if (!engine->options().view.detail || seen == nullptr || seen->height() < 1) return;
+  DetailSettings detail = *engine->options().view.detail;
+  detail.lines = std::min(seen->height() * seen->devicePixelRatioF(), DetailSettings::kMostLines);
+  detail.fieldOfView = stage.fieldOfView();
+  static_cast<void>(engine->setDetail(detail));  // nothing that it could refuse has changed
 }
 
 void TerrainWidget::Private::drawn() {

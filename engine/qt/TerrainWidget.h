@@ -28,9 +28,10 @@ struct GroundPoint {
 };
 
 /// Draws a world through the eye of a viewer, and works at what is missing from a timer, within a budget, on
-/// the thread it lives on. It rests, without timers and without drawing, while nothing is missing and nothing
-/// changes, and while it is hidden. Like any widget it may be moved to another parent, hidden, deleted and
-/// made again, and a window may have several; each has an engine of its own.
+/// the thread it lives on. It rests, without timers and without drawing, while nothing is missing or
+/// still to be measured and nothing changes, and while it is hidden. Like any widget it may be moved to
+/// another parent, hidden, deleted and made again, and a window may have several; each has an engine of its
+/// own.
 ///
 /// A drag with the left button turns the view; the wheel moves it forwards and backwards, with Shift or Ctrl
 /// up and down; other keys and buttons are the program's. To give the mouse another meaning, override the
@@ -63,10 +64,12 @@ class TerrainWidget : public QWidget {
   /// PluginRegistry::reloaded(). What is refused leaves plugins and land as they were.
   Result<void> setPlugins(std::shared_ptr<const PluginRegistry> plugins);
 
-  /// The view's level and radius, the worker threads and the byte cap. With a world there it takes a new
+  /// The view, the worker threads and the byte cap. Of a view with detail by error, the picture's height and
+  /// the field of view are the widget's to say, whatever its size. With a world there it takes a new
   /// engine, which makes the view anew; what is refused leaves the options as they were. Without a world
   /// nothing is refused yet.
   Result<void> setOptions(const EngineOptions& options);
+  /// As they were set.
   const EngineOptions& options() const noexcept;
 
   /// How long each frame may work at what is missing, brought into 0.1 ms ... 1 s. More fills the view

@@ -108,6 +108,7 @@ struct Engine::State final : Ground {
   mutable int queryLevels = 0;                      // whose errors it tells were measured
   std::size_t sceneTriangles = 0;
   std::chrono::nanoseconds lastUpdate{0};
+  bool measuring = false;
 
   // Ground
   std::optional<double> height(const Position& position) const override;
@@ -221,10 +222,13 @@ std::vector<std::string> Engine::takeMessages() {
 void Engine::update(double dt, std::chrono::nanoseconds budget) {
   const Slice::Clock::time_point start = Slice::Clock::now();
   State& state = *state_;
+  const bool measured = state.streamer.isMeasuring();
   state.objects.advance(dt, state, StoredGround(state.streamer.nodes()));
   state.choose();
   state.streamer.work(deadlineAfter(start, budget));
   state.publish();
+  state.measuring =
+      measured || state.streamer.isMeasuring();  // what was found last counts in the next choice
   state.lastUpdate = Slice::Clock::now() - start;
 }
 
@@ -273,6 +277,7 @@ EngineFigures Engine::figures() const noexcept {
   figures.pixelError = streamer.pixelError();
   figures.nodesAtLevel = streamer.nodes().drawnAtLevel();
   figures.pending = streamer.missing();
+  figures.measuring = state.measuring;
   figures.unfinishedTasks = streamer.unfinished();
   figures.slices = streamer.meter().slices();
   figures.lateSlices = streamer.meter().lateSlices();

@@ -489,6 +489,11 @@ bool Streamer::startCalibration() {
   return true;
 }
 
+bool Streamer::isMeasuring() const {
+  if (!selection_ || missing_ > 0 || wanted_.empty() || errorsAreKnown(world_)) return false;
+  return calibration_ != 0 || calibrator_ || hasRoomFor(calibrationBytes_);
+}
+
 bool Streamer::isSettled() const {
   if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty() || mayRefine_) return false;
   if (missing_ == 0 && !lacksRoom_) return true;

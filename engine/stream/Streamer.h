@@ -53,6 +53,9 @@ class Streamer {
   void wait(std::chrono::milliseconds most) { runner_.waitForFinished(most); }
   /// Nothing is missing, or nothing more can be done under the cap; and nothing is left to free.
   bool isSettled() const;
+  /// With detail by error: nothing is missing, but node errors are still to be measured, and can be under the
+  /// cap.
+  bool isMeasuring() const;
 
   /// The view of detail by error; there must be one already.
   void setDetail(const DetailSettings& detail);

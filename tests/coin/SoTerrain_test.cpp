@@ -38,6 +38,7 @@
 #include "tests/coin/Complaints.h"
 #include "tests/coin/OffscreenView.h"
 #include "tests/coin/Stage.h"
+#include "world/NodeErrors.h"
 
 namespace teren {
 namespace {
@@ -438,6 +439,58 @@ TEST(SoTerrain, FillsItsViewFromItsOwnTimerFollowsTheEyeAndRests) {
   for (int turn = 0; turn < 50; ++turn) processSensors();
   EXPECT_EQ(engine->figures().lastUpdate, last)
       << "an update although nothing was missing and nothing had moved";
+}
+
+/// A world of one layer, whose errors are soon measured, with detail by error.
+void makeDetailed(SoTerrain& terrain) {
+  terrain.generator = "fault";
+  terrain.viewDistance = 1500.0F;
+  terrain.pixelError = 4.0F;
+  terrain.frameBudget = SbTime(0.02);
+}
+
+/// Lets sensors work until nothing is missing or to be measured.
+void fill(const Engine& engine) {
+  for (int turn = 0; turn < 20'000; ++turn) {
+    processSensors();
+    const EngineFigures figures = engine.figures();
+    if (turn >= 20 && figures.pending == 0 && !figures.measuring) return;
+  }
+  FAIL() << "it is never done";
+}
+
+TEST(SoTerrain, RefinesItsGroundForACameraThatStandsStillAndZooms) {
+  const Stage stage;
+  makeDetailed(*stage.terrain);
+  stage.camera->position = SbVec3f(0.0F, 0.0F, 900.0F);
+  stage.camera->heightAngle = 1.2F;
+  OffscreenView view(240, 240);
+  view.draw(stage.root, kMagenta);
+  const Engine& engine = *stage.terrain->engine();
+  fill(engine);
+  view.draw(stage.root, kMagenta);
+  for (int turn = 0; turn < 20; ++turn) processSensors();  // its timer rests
+  const std::size_t wide = stage.terrain->scene()->triangles();
+  stage.camera->heightAngle = 0.2F;
+  view.draw(stage.root, kMagenta);
+  fill(engine);
+  EXPECT_NEAR(engine.options().view.detail->fieldOfView, 0.2, 1e-3);
+  EXPECT_GT(stage.terrain->scene()->triangles(), 2 * wide);
+  EXPECT_EQ(stage.terrain->scene(), engine.scene());
+}
+
+TEST(SoTerrain, GoesOnWhileNothingIsMissingUntilItKnowsHowWrongItsNodesAre) {
+  const Stage stage;
+  makeDetailed(*stage.terrain);
+  OffscreenView view(64, 48);
+  view.draw(stage.root, kMagenta);
+  const Engine& engine = *stage.terrain->engine();
+  fill(engine);
+  EXPECT_GT(engine.world().nodeErrors().nextToCalibrate(), engine.world().topLevel());
+  view.draw(stage.root, kMagenta);
+  const auto last = engine.figures().lastUpdate;
+  for (int turn = 0; turn < 50; ++turn) processSensors();
+  EXPECT_EQ(engine.figures().lastUpdate, last) << "now there is nothing left to do";
 }
 
 TEST(SoTerrain, TellsItsEngineWhatItHoldsOnTheGraphicsCard) {

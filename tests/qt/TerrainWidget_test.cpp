@@ -24,6 +24,7 @@
 #include "coin/SoTerrain.h"
 #include "tests/engine/plugin/ScratchFolder.h"
 #include "tests/qt/Sight.h"
+#include "world/NodeErrors.h"
 
 namespace teren {
 namespace {
@@ -113,6 +114,40 @@ TEST(TerrainWidget, RestsWithoutATimerWhenNothingChanges) {
   EXPECT_EQ(timerEvents(400), 0);
   EXPECT_EQ(land->figures().lastUpdate, last);
   EXPECT_FALSE(isWorking(*land));
+}
+
+/// A world of one layer, whose errors are soon measured, with detail by error.
+void showDetail(TerrainWidget& land) {
+  land.terrain().waterLevel = -1e6F;
+  land.setFrameBudget(std::chrono::milliseconds(20));
+  ASSERT_TRUE(
+      land.setOptions({.view = {.detail = DetailSettings{.pixelError = 4.0, .distance = 1500.0}}}).ok());
+  ASSERT_TRUE(land.setWorldText(QStringLiteral(R"({ "layers": [ { "generator": "fault" } ] })")).ok());
+  ASSERT_TRUE(comesToRest(land));
+}
+
+TEST(TerrainWidget, RestsOnlyWhenItKnowsHowWrongItsNodesAre) {
+  TerrainWidget land;
+  land.resize(kWidth, kHeight);
+  land.show();
+  showDetail(land);
+  EXPECT_GT(land.world()->nodeErrors().nextToCalibrate(), land.world()->topLevel());
+}
+
+TEST(TerrainWidget, ChoosesItsDetailForThePictureItHasAlsoWhenItIsResized) {
+  TerrainWidget land;
+  land.resize(kWidth, kHeight);
+  land.show();
+  showDetail(land);
+  const std::size_t low = land.figures().triangles;
+  land.resize(kWidth, 4 * kHeight);
+  ASSERT_TRUE(comesToRest(land));
+  const std::size_t high = land.figures().triangles;
+  EXPECT_GT(high, low + low / 2) << "each pixel is smaller now";
+  land.resize(kWidth, kHeight);
+  ASSERT_TRUE(comesToRest(land));
+  EXPECT_LT(land.figures().triangles, (low + high) / 2) << "hysteresis keeps some of it";
+  EXPECT_EQ(land.options().view.detail->lines, DetailSettings{}.lines) << "options are as they were set";
 }
 
 TEST(TerrainWidget, RestsWhileHiddenAndGoesOnWhenShown) {

@@ -68,8 +68,12 @@ struct EngineFigures {
   int radius = 0;             ///< of a uniform view: less than asked for under the cap
   /// [px] With detail by error, what is aimed at: more than asked for under the cap. 0 in a uniform view.
   double pixelError = 0.0;
-  std::vector<std::size_t> nodesAtLevel;   ///< in the scene, from level 0 on
-  std::size_t pending = 0;                 ///< nodes wanted and not there yet
+  std::vector<std::size_t> nodesAtLevel;  ///< in the scene, from level 0 on
+  std::size_t pending = 0;                ///< nodes wanted and not there yet
+  /// With detail by error: nothing is pending, and updates measure how wrong nodes are, as long as levels are
+  /// left of which that is not known and there is room under the cap. Who lets updates rest while nothing is
+  /// pending should go on meanwhile: then the detail is chosen anew.
+  bool measuring = false;
   std::size_t unfinishedTasks = 0;         ///< given to workers (or to later slices), at this moment
   std::uint64_t slices = 0;                ///< begun since the engine was made
   std::uint64_t lateSlices = 0;            ///< that ended beyond the budget
