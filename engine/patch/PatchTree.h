@@ -54,6 +54,16 @@ class PatchTree {
     }
   }
 
+  /// Whether a node inside `key`, or itself, has data.
+  bool hasIn(const NodeKey& key) const noexcept { return branchAt(key).node != nullptr; }
+  /// Calls visit(key, data) for every node with data inside `key`, itself included, parents before children,
+  /// until it returns false.
+  template <class Visit>
+  void forEachIn(const NodeKey& key, Visit&& visit) const {
+    const Branch branch = branchAt(key);
+    if (branch.node) forEachInBelow(*branch.node, branch.key, visit);
+  }
+
   /// Level of the root of the quadrant `key` lies in, -1 where there is none.
   int rootLevel(const NodeKey& key) const noexcept {
     const Root& root = roots_[quadrant(key)];
@@ -72,6 +82,11 @@ class PatchTree {
     std::unique_ptr<Node> node;
   };
 
+  struct Branch {
+    const Node* node;
+    NodeKey key;
+  };
+
   static std::size_t quadrant(const NodeKey& key) noexcept {
     return (key.i < 0 ? 1U : 0U) + (key.j < 0 ? 2U : 0U);
   }
@@ -86,6 +101,28 @@ class PatchTree {
   }
   void growRoot(Root& root, const NodeKey& key);
   bool eraseBelow(std::unique_ptr<Node>& node, int level, const NodeKey& key);
+
+  /// All that lies inside `key`: its node, or the root if that does; none where nothing has data there.
+  Branch branchAt(const NodeKey& key) const noexcept {
+    const Root& root = roots_[quadrant(key)];
+    if (!root.node || isIn(root.key, key)) return {root.node.get(), root.key};
+    if (!isIn(key, root.key)) return {nullptr, key};
+    const Node* node = root.node.get();
+    for (int level = root.key.level; node && level > key.level; --level) {
+      node = node->children[childAt(key, level - 1)].get();
+    }
+    return {node, key};
+  }
+
+  template <class Visit>
+  static bool forEachInBelow(const Node& node, const NodeKey& key, Visit& visit) {
+    if (node.data && !visit(key, node.data)) return false;
+    for (std::size_t child = 0; child < 4; ++child) {
+      const auto& branch = node.children[child];
+      if (branch && !forEachInBelow(*branch, key.child(static_cast<int>(child)), visit)) return false;
+    }
+    return true;
+  }
 
   template <class Visit>
   static void forEachTouchingBelow(const Node& node, const NodeKey& at, const NodeKey& key, Visit& visit) {

@@ -7,6 +7,7 @@
 
 #include "teren/HeightMap.h"
 
+#include "stream/GridWalk.h"
 #include "stream/NodeStore.h"
 
 namespace teren {
@@ -14,20 +15,6 @@ namespace {
 
 /// Ways that cross more patches than this look at those held instead.
 constexpr double kPatchesMarched = 256.0;
-
-/// A part of a way, as times.
-struct Span {
-  double begin = 0.0, end = 1.0;
-  bool empty() const { return begin > end; }
-};
-
-/// When a coordinate that runs from `from` to `to` is between `low` and `high`.
-Span spanWithin(double from, double to, double low, double high, const Span& within) {
-  const double run = to - from;
-  if (run == 0.0) return low <= from && from <= high ? within : Span{1.0, 0.0};
-  const double a = (low - from) / run, b = (high - from) / run;
-  return {std::max(within.begin, std::min(a, b)), std::min(within.end, std::max(a, b))};
-}
 
 struct Cells {
   double first = 0.0, last = -1.0;
@@ -65,8 +52,8 @@ class March {
     }
     const Cells rows = cellsOver(ball_.from.y, ball_.to.y, {}, reach_, pitch_);
     for (double row = rows.first; row <= rows.last; row += 1.0) {
-      const Span span =
-          spanWithin(ball_.from.y, ball_.to.y, row * pitch_ - reach_, (row + 1.0) * pitch_ + reach_, {});
+      const Span span = spanWithin(ball_.from.y, ball_.to.y - ball_.from.y, row * pitch_ - reach_,
+                                   (row + 1.0) * pitch_ + reach_, {});
       if (span.empty()) continue;
       const Cells columns = cellsOver(ball_.from.x, ball_.to.x, span, reach_, pitch_);
       for (double column = columns.first; column <= columns.last; column += 1.0) {
@@ -81,8 +68,9 @@ class March {
   void overPatch(std::int64_t i, std::int64_t j, const Visit& visit) const {
     const double west = static_cast<double>(i - origin_.i) * pitch_;
     const double south = static_cast<double>(j - origin_.j) * pitch_;
-    Span span = spanWithin(ball_.from.x, ball_.to.x, west - reach_, west + pitch_ + reach_, {});
-    span = spanWithin(ball_.from.y, ball_.to.y, south - reach_, south + pitch_ + reach_, span);
+    Span span =
+        spanWithin(ball_.from.x, ball_.to.x - ball_.from.x, west - reach_, west + pitch_ + reach_, {});
+    span = spanWithin(ball_.from.y, ball_.to.y - ball_.from.y, south - reach_, south + pitch_ + reach_, span);
     if (span.empty()) return;
     const NodeHeights heights = ground_.patch(i, j);
     if (!heights) return;
@@ -92,7 +80,8 @@ class March {
     const auto [bottom, top] = range(ball_.from.y - south, ball_.to.y - south, span, side, n);
     for (int row = bottom; row <= top; ++row) {
       const double edge = south + row * side;
-      const Span inRow = spanWithin(ball_.from.y, ball_.to.y, edge - reach_, edge + side + reach_, span);
+      const Span inRow =
+          spanWithin(ball_.from.y, ball_.to.y - ball_.from.y, edge - reach_, edge + side + reach_, span);
       if (inRow.empty()) continue;
       const auto [left, right] = range(ball_.from.x - west, ball_.to.x - west, inRow, side, n);
       for (int column = left; column <= right; ++column) {

@@ -89,15 +89,10 @@ std::optional<NodeKey> NodeStore::drawnOver(const NodeKey& key) const {
 
 std::vector<NodeKey> NodeStore::drawnIn(const NodeKey& key) const {
   std::vector<NodeKey> keys;
-  drawn_.forEachTouching(key, [&](const NodeKey& other, const NodeHeights&) {
-    if (isIn(other, key)) keys.push_back(other);
+  forEachDrawnIn(key, [&](const NodeKey& inner) {
+    keys.push_back(inner);
+    return true;
   });
-  return keys;
-}
-
-std::vector<NodeKey> NodeStore::drawnAround(const NodeKey& key) const {
-  std::vector<NodeKey> keys = Surroundings{drawn_, {}, {}}.around(key);
-  std::erase_if(keys, [&](const NodeKey& other) { return isIn(other, key); });
   return keys;
 }
 

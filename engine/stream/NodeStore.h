@@ -84,8 +84,18 @@ class NodeStore {
   std::optional<NodeKey> drawnOver(const NodeKey& key) const;
   /// The drawn nodes inside this one, itself included.
   std::vector<NodeKey> drawnIn(const NodeKey& key) const;
-  /// The other drawn nodes whose squares touch that of `key` and do not lie in it, by level and key.
-  std::vector<NodeKey> drawnAround(const NodeKey& key) const;
+  /// Whether any node inside this one is drawn, or itself.
+  bool isDrawnIn(const NodeKey& key) const noexcept { return drawn_.hasIn(key); }
+  /// Calls visit(key) for the drawn nodes inside this one, itself included, until it returns false.
+  template <class Visit>
+  void forEachDrawnIn(const NodeKey& key, Visit&& visit) const {
+    drawn_.forEachIn(key, [&](const NodeKey& inner, const NodeHeights&) { return visit(inner); });
+  }
+  /// Calls visit(key) for all drawn nodes whose squares touch that of `key`, or lie in it, or over it.
+  template <class Visit>
+  void forEachDrawnTouching(const NodeKey& key, Visit&& visit) const {
+    drawn_.forEachTouching(key, [&](const NodeKey& other, const NodeHeights&) { visit(other); });
+  }
   std::size_t drawnCount() const noexcept { return drawnCount_; }
   /// Calls visit(key) for every drawn node, in an order that depends on the set alone.
   template <class Visit>

@@ -80,7 +80,7 @@ double drawnError(const World& world, const Mesh& mesh) {
   return world.nodeErrors().estimate(mesh.nodeLevel, static_cast<double>(mesh.bend));
 }
 
-double lensPixels(int rows, double fieldOfView) noexcept {
+double lensPixels(double rows, double fieldOfView) noexcept {
   return rows / (2.0 * std::tan(0.5 * fieldOfView));
 }
 

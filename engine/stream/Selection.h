@@ -1,17 +1,19 @@
 // Which nodes a view to the horizon wants: a cut through the quadtree by the error a person would see.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "teren/Engine.h"
 #include "teren/Position.h"
+#include "teren/Slice.h"
 
 #include "patch/NodeKey.h"
+#include "stream/Cut.h"
 
 namespace teren {
 
@@ -20,25 +22,22 @@ struct Viewer {
   Position position;
   double height = 0.0;  ///< [m] above zero
   DetailSettings detail;
-};
+  double east = 0.0, north = 0.0, up = 0.0;  ///< [m] how far it will have moved in a while
 
-/// [px] What a metre one metre away from an eye measures on its screen.
-double pixelsPerMetre(const DetailSettings& detail) noexcept;
-
-/// A node of the cut, or one above it.
-struct SelectedNode {
-  NodeKey key;
-  bool isLeaf = false;   ///< of the cut: to be drawn; others are coarser, and to be held
-  double urgency = 0.0;  ///< how many times the error wanted is seen until it is there, or what waits for it
+  friend bool operator==(const Viewer&, const Viewer&) = default;
 };
 
 /// Chooses the coarsest nodes within every viewer's distance whose error, seen from there, is at most the
-/// pixel error wanted: error [m] * pixelsPerMetre / distance [m] to the node's box (its square, and the
-/// world's range of heights: mean +- 3 deviations). Nodes that touch, be it in a corner, are of levels at
-/// most one apart. The cut covers whole roots: the nodes of rootLevel() within a viewer's distance. A node
-/// stays split until its error is a fifth below the one wanted, so that who flies to and fro does not make it
-/// come and go. The same viewers after the same ones before give the same cut. Not thread-safe. Costs about 1
-/// us a node chosen.
+/// pixel error wanted (DetailThreshold.h): error [m] * pixels of a metre / distance [m] to the node's box
+/// (its square, and the world's range of heights: mean +- 3 deviations). Nodes that touch, be it in a corner,
+/// are of levels at most one apart. The cut covers whole roots: the nodes of the root level within a viewer's
+/// distance, or an eighth farther if they were there before. A node stays split until its error is a fifth
+/// below the one wanted. What a viewer will see on its way counts like what it sees, so that nodes are there
+/// when they are needed.
+///
+/// In slices: the cut kept last stays as it is until the next is kept. The same viewers after the same ones
+/// before give the same cut, whatever the slices. Not thread-safe. About 60 ns a node chosen
+/// (bench-selection), and no allocation but for a cut larger than any before.
 class Selection {
  public:
   /// What is known of a world.
@@ -48,53 +47,86 @@ class Selection {
     std::vector<double> errors;  ///< [m] of nodes by level, from level 0 (the finest drawn) to the top level
     int coarsest = std::numeric_limits<int>::max();  ///< level that roots may have; the top level at most
   };
-  explicit Selection(Ground ground) : ground_(std::move(ground)) {}
+  explicit Selection(Ground ground);
 
-  const std::vector<double>& errors() const noexcept { return ground_.errors; }
-  /// As many as before.
-  void setErrors(std::vector<double> errors) { ground_.errors = std::move(errors); }
+  std::span<const double> errors() const noexcept { return ground_.errors; }
+  /// As many as before. What is split now is not kept split by the next choice: what is chosen once all
+  /// errors are known does not depend on what was known when.
+  void setErrors(std::span<const double> errors) {
+    ground_.errors.assign(errors.begin(), errors.end());
+    forgets_ = true;
+  }
 
-  /// `tolerance` >= 1 multiplies every pixel error, where memory is short. False as soon as there are more
-  /// than `most` leaves beside the roots, and then nothing is chosen: so the cost is bounded.
+  /// Begins to choose, and forgets what was chosen but not kept. `tolerance` >= 1 multiplies every pixel
+  /// error, where memory is short. More than `most` leaves beside the roots are not chosen.
+  void begin(std::span<const Viewer> viewers, double tolerance,
+             std::size_t most = std::numeric_limits<std::size_t>::max());
+  /// Goes on; true once it has ended.
+  bool step(const Slice& slice);
+  /// Of one that has ended: false where there were more leaves than allowed, and nothing is chosen.
+  bool hasChosen() const noexcept { return stage_ == Stage::chosen; }
+  /// All at once; hasChosen().
   bool choose(std::span<const Viewer> viewers, double tolerance,
               std::size_t most = std::numeric_limits<std::size_t>::max());
   /// What was chosen last is what is split now, for the choices to come.
   void keep();
 
-  /// The most urgent first, and every node after the one above it.
-  std::span<const SelectedNode> nodes() const noexcept { return nodes_; }
-  std::size_t leaves() const noexcept { return leaves_; }
+  /// Chosen last, kept or not; and what was kept last.
+  const Cut& chosen() const noexcept { return cuts_[chosen_]; }
+  Cut& chosen() noexcept { return cuts_[chosen_]; }
+  const Cut& kept() const noexcept { return cuts_[kept_]; }
+  Cut& kept() noexcept { return cuts_[kept_]; }
+
   /// Roots are of one level: the coarsest whose side is at most half the farthest viewer's distance, and
   /// never finer than before. Among roots the nearest are the most urgent, and go before all else.
-  int rootLevel() const noexcept { return rootLevel_; }
   static int rootLevelFor(double distance, double pitch, int topLevel) noexcept;
-  bool isRoot(const NodeKey& key) const { return key.level == rootLevel_ && roots_.contains(key); }
-  /// Whether a node is one of nodes(), and a leaf.
-  bool isLeaf(const NodeKey& key) const;
-  bool contains(const NodeKey& key) const;
+  /// [m / m] How much farther away than new ones roots stay.
+  static constexpr double kRootsStay = 1.125;
 
-  /// [px / px] The largest error a viewer sees of this node, in terms of what it wants; 0 where no viewer's
-  /// distance reaches it.
+  /// [px / px] The largest error a viewer sees of this node, now or on its way, in terms of what it wants; 0
+  /// where no viewer's distance reaches it.
   double seen(const NodeKey& key) const;
 
- private:
-  using Splits = std::unordered_map<NodeKey, double, NodeKeyHash>;  // to urgencies
+  std::size_t bytes() const noexcept;
 
-  double distance(const Viewer& viewer, const NodeKey& key) const;
-  void findRoots();
-  double rootUrgency(const NodeKey& root) const;
-  bool split(const NodeKey& key, double tolerance);
-  bool balance();
-  void list(const NodeKey& key, double urgency);
+ private:
+  enum class Stage { chosen, refused, rooting, splitting, balancing, weighing, sorting };
+  /// A viewer, as nodes are compared with it.
+  struct Eye {
+    Viewer viewer;
+    double pixels = 0.0;  // of a metre one metre away, in terms of what is wanted
+    double squaredDistance = 0.0;
+    bool moves = false;
+  };
+
+  double side(int level) const noexcept { return sides_[static_cast<std::size_t>(level)]; }
+  /// [m^2] across the ground, `share` of its way from where the viewer is now.
+  double squaredAcross(const Eye& eye, const NodeKey& key, double share) const noexcept;
+  double seenBy(const Eye& eye, const NodeKey& key, double share) const noexcept;
+  double shareOfWay(const Eye& eye, const NodeKey& key) const noexcept;
+  float rootUrgency(const NodeKey& root) const;
+  bool divide(Cut::Index index, float urgency);
+  void stepUnits();
+  void findRoots(const Eye& eye);
+  void splitSome();
+  void balanceSome();
+  void balanceAround(Cut::Index index);
+  void makeDivided(const NodeKey& key, float urgency);
+  void weighSome();
 
   Ground ground_;
-  std::vector<Viewer> viewers_;
+  std::vector<double> sides_;  // [m] by level
+  std::vector<Eye> eyes_;
+  double tolerance_ = 1.0;
   int rootLevel_ = 0;
-  Splits roots_, before_;
-  std::vector<Splits> splits_;  // by level
-  std::vector<SelectedNode> nodes_;
-  std::size_t leaves_ = 0;
-  std::size_t left_ = 0;  // nodes that may still be split
+  std::array<Cut, 2> cuts_;
+  std::size_t chosen_ = 0, kept_ = 1;
+  Stage stage_ = Stage::chosen;
+  bool forgets_ = false;  // what is split now
+  std::size_t next_ = 0;  // eye, node, split node of level_, node, pass of the stage
+  int level_ = 0;
+  std::vector<std::vector<Cut::Index>> split_;  // by level, in the order they were split
+  std::size_t left_ = 0;                        // nodes that may still be split
 };
 
 }  // namespace teren

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "patch/BorderTask.h"
 #include "patch/ErrorCalibration.h"
 #include "patch/NodeTask.h"
-#include "stream/Refinement.h"
-#include "stream/View.h"
 #include "world/NodeErrors.h"
 
 namespace teren {
@@ -26,6 +25,8 @@ constexpr std::size_t kRefinements = 4;  // of four nodes each, likewise
 // Detail by error:
 constexpr double kChoiceStep = 1.0 / 16.0;  // [pitches] an eye moves before the next choice ...
 constexpr double kFewNodes = 500.0;         // ... among so many nodes or fewer; farther where it costs more
+constexpr double kChoiceSeconds = 0.1;      // ... or goes in this time, if that is farther
+constexpr double kSecondsAhead = 1.0;       // of an eye's way, for which there is to be land too
 constexpr double kToleranceStep = 1.25, kMostTolerance = 1e4;
 // The rest of the cap is for what stays drawn until it is replaced. Refined again only where it will fit for
 // a while.
@@ -44,7 +45,8 @@ int coarsestRoot(const World& world) {
 /// How many roots lie within a view's distance, at most.
 double mostRoots(const World& world, const DetailSettings& detail) {
   const int level = Selection::rootLevelFor(detail.distance, world.pitch(), coarsestRoot(world));
-  const double across = 2.0 * std::ceil(detail.distance / (world.pitch() * std::exp2(level))) + 1.0;
+  const double across =
+      2.0 * std::ceil(Selection::kRootsStay * detail.distance / (world.pitch() * std::exp2(level))) + 1.0;
   return across * across;
 }
 
@@ -66,6 +68,9 @@ std::vector<double> nodeErrors(const World& world) {
     errors.push_back(world.nodeErrors().estimate(level));
   return errors;
 }
+
+/// [bytes] About what a node takes in two cuts and in the lists of who follows them.
+constexpr std::size_t kCutBytes = 4 * sizeof(Cut::Node);
 
 bool errorsAreKnown(const World& world) {
   return world.nodeErrors().nextToCalibrate() > world.topLevel();
@@ -103,6 +108,8 @@ Streamer::Streamer(const World& world, const EngineOptions& options)
   const double range = kDeviations * world.deviation();
   selection_.emplace(Selection::Ground{world.pitch(), world.mean() - range, world.mean() + range,
                                        nodeErrors(world), coarsestRoot(world)});
+  borderBytes_ = nodes_.borderBytes();
+  selectionBytes_ = options.capBytes / nodes_.drawnBytes() * 4 / 3 * kCutBytes;
 }
 
 void Streamer::sizeBuilds() {
@@ -135,82 +142,221 @@ std::size_t Streamer::leastCap(const World& world, const EngineOptions& options)
 
 void Streamer::choose(std::span<const Motion> motions, std::size_t active) {
   if (motions.empty()) return;
-  const std::vector<NodeKey> ground = chooseGround(motions);
-  if (options_.view.detail) {
-    chooseDetail(ground, motions[active]);
+  chooseGround(motions);
+  if (selection_) {
+    chooseDetail(motions[active]);
   } else {
-    chooseUniform(ground, motions[active].position);
+    chooseUniform(motions[active].position);
   }
 }
 
-bool Streamer::isGroundAsBefore(const std::vector<NodeKey>& ground) const {
-  return std::equal(ground.begin(), ground.end(), wanted_.begin(),
+bool Streamer::isGroundAsBefore() const {
+  return std::equal(ground_.begin(), ground_.end(), wanted_.begin(),
                     wanted_.begin() + static_cast<std::ptrdiff_t>(groundCount_));
 }
 
-void Streamer::chooseUniform(const std::vector<NodeKey>& ground, const Position& eye) {
+void Streamer::chooseUniform(const Position& eye) {
   const NodeKey centre = nodeAt(eye, options_.view.level);
-  const MemoryPlan next = planMemory(needs(ground.size()));
-  if (centre_ == centre && plan_ == next && isGroundAsBefore(ground)) return;
+  const MemoryPlan next = planMemory(needs(ground_.size()));
+  if (centre_ == centre && plan_ == next && isGroundAsBefore()) return;
   centre_ = centre;
   plan_ = next;
   maps_.setCapacity(plan_.mapBytes);
-  rank(ground, viewNodes(eye, {options_.view.level, plan_.radius}, world_));
+  rank(viewNodes(eye, {options_.view.level, plan_.radius}, world_));
   planDrops();
+  cancelUnwanted();
+  for (std::size_t k = 0; k < wanted_.size(); ++k) {
+    if (!isThere(wanted_[k]) && nodes_.heights(wanted_[k]) && !joining_.contains(wanted_[k]))
+      toJoin_.insert(k);
+  }
+}
+
+void Streamer::chooseGround(std::span<const Motion> motions) {
+  groundLists_.resize(motions.size());
+  for (std::size_t index = 0; index < motions.size(); ++index) {
+    groundNodes(motions[index], world_, groundOfOne_);
+    std::swap(groundLists_[index], groundOfOne_.wanted);
+    for (const NodeKey& key : groundOfOne_.passing) {
+      if (nodes_.heights(key)) groundLists_[index].push_back(key);
+    }
+  }
+  // Every object's own node first, then what each will reach next. A quarter of the cap is for ground.
+  const std::size_t most = std::max(motions.size(), options_.capBytes / 4 / nodes_.heldBytes());
+  ground_.clear();
+  groundSeen_.clear();
+  for (std::size_t k = 0, left = groundLists_.size(); left > 0; ++k) {
+    left = 0;
+    for (const std::vector<NodeKey>& list : groundLists_) {
+      if (k >= list.size()) continue;
+      ++left;
+      if (ground_.size() < most && groundSeen_.insert(list[k], 0)) ground_.push_back(list[k]);
+    }
+  }
+}
+
+MemoryNeeds Streamer::needs(std::size_t groundNodes) const {
+  MemoryNeeds needs;
+  needs.cap = options_.capBytes;
+  needs.radius = options_.view.radius;
+  needs.perNode = nodes_.drawnBytes() + nodes_.piecesBytes();
+  needs.fixed = kSlack + rendererExtra_ + selectionBytes_ + groundNodes * nodes_.heldBytes() +
+                (mostViewBuilds_ + mostGroundBuilds_) * buildBytes_ +
+                joinBatch(options_.workers) * 2 * nodes_.piecesBytes();
+  needs.leastMaps = std::max(kLeastMapBytes, buildBytes_);
+  needs.mostMaps = std::max(kMostMapBytes, needs.leastMaps);
+  return needs;
+}
+
+void Streamer::rank(std::span<const NodeKey> view) {
+  wanted_ = ground_;
+  groundCount_ = ground_.size();
+  ranks_.clear();
+  for (std::size_t k = 0; k < wanted_.size(); ++k) ranks_.emplace(wanted_[k], k);
+  for (const NodeKey& key : view) {
+    if (ranks_.emplace(key, wanted_.size()).second) wanted_.push_back(key);
+  }
+  nextWanted_ = 0;
+  toJoin_.clear();
+  countMissing();
+}
+
+void Streamer::countMissing() {
+  missing_ = static_cast<std::size_t>(
+      std::count_if(wanted_.begin(), wanted_.end(), [&](const NodeKey& key) { return !isThere(key); }));
+}
+
+void Streamer::planDrops() {
+  drops_.clear();
+  for (const NodeKey& key : nodes_.nodes()) {
+    if (isDrawable(key)) continue;
+    if (!ranks_.contains(key) || nodes_.isDrawn(key)) drops_.push_back(key);
+  }
+}
+
+bool Streamer::isWanted(const NodeKey& key) const {
+  return ranks_.contains(key) || refinement_.isWanted(key);
+}
+
+void Streamer::cancelUnwanted() {
+  for (auto build = builds_.begin(); build != builds_.end();) {
+    if (isWanted(build->first)) {
+      ++build;
+      continue;
+    }
+    runner_.cancel(build->second.ticket);
+    if (build->second.isGround) --groundBuilds_;
+    build = builds_.erase(build);
+  }
+}
+
+bool Streamer::isDrawable(const NodeKey& key) const {
+  return centre_ && mayStay(key, *centre_, {options_.view.level, plan_.radius}, plan_.margin);
+}
+
+bool Streamer::isThere(const NodeKey& key) const {
+  return isDrawable(key) ? nodes_.isDrawn(key) : static_cast<bool>(nodes_.heights(key));
+}
+
+// ---- Detail by error
+
+void Streamer::chooseDetail(const Motion& eye) {
+  viewers_.clear();
+  viewers_.push_back({eye.position, eye.height, *options_.view.detail, kSecondsAhead * eye.east,
+                      kSecondsAhead * eye.north, kSecondsAhead * eye.up});
+  if (isGroundAsBefore()) return;
+  drops_.insert(drops_.end(), wanted_.begin(), wanted_.end());
+  rank({});
   cancelUnwanted();
 }
 
-bool Streamer::isViewedAsBefore(const Viewer& viewer) const {
-  if (!viewer_ || !(viewer_->detail == viewer.detail)) return false;
-  const Offset way = offset(viewer_->position, viewer.position, world_.pitch());
-  const double up = viewer.height - viewer_->height;
-  const double step =
-      kChoiceStep * world_.pitch() * std::max(1.0, static_cast<double>(wanted_.size()) / kFewNodes);
-  return way.east * way.east + way.north * way.north + up * up < step * step;
+bool Streamer::isViewedAsBefore() const {
+  return std::equal(
+      viewers_.begin(), viewers_.end(), chosenFor_.begin(), chosenFor_.end(),
+      [&](const Viewer& now, const Viewer& then) {
+        if (now.detail != then.detail) return false;
+        const Offset way = offset(then.position, now.position, world_.pitch());
+        const double up = now.height - then.height;
+        const double ahead = std::sqrt(then.east * then.east + then.north * then.north + then.up * then.up);
+        const double nodes = std::max(1.0, static_cast<double>(refinement_.wanted()) / kFewNodes);
+        const double step =
+            std::max(kChoiceStep * world_.pitch() * nodes, kChoiceSeconds / kSecondsAhead * ahead);
+        const auto isNear = [&](double east, double north, double above) {
+          return east * east + north * north + above * above < step * step;
+        };
+        return isNear(way.east, way.north, up) &&
+               isNear(way.east + now.east - then.east, way.north + now.north - then.north,
+                      up + now.up - then.up);
+      });
 }
 
-void Streamer::chooseDetail(const std::vector<NodeKey>& ground, const Motion& eye) {
-  const Viewer viewer{eye.position, eye.height, *options_.view.detail};
-  const MemoryNeeds now = needs(ground.size());
-  std::vector<double> errors = nodeErrors(world_);
-  if (isViewedAsBefore(viewer) && needs_ == now && selection_->errors() == errors) {
-    if (!isGroundAsBefore(ground)) wantSelected(ground);
+bool Streamer::isChosen() const {
+  return choosing_ == Choosing::idle && isViewedAsBefore() && needs_ == detailNeeds() &&
+         errorLevels_ == world_.nodeErrors().nextToCalibrate();
+}
+
+bool Streamer::chooseSome(const Slice& slice) {
+  switch (choosing_) {
+    case Choosing::idle:
+      if (isChosen()) return false;
+      beginChoice();
+      break;
+    case Choosing::selecting:
+      if (selection_->step(slice)) judgeChoice();
+      break;
+    case Choosing::turning:
+      if (!refinement_.turnStep(slice)) break;
+      selection_->keep();
+      tolerance_ = tried_;
+      choosing_ = Choosing::idle;
+      countMissing();
+      cancelUnwanted();
+  }
+  return true;
+}
+
+/// With room for a little more ground than there is, so that not every step of an object asks for another
+/// choice.
+MemoryNeeds Streamer::detailNeeds() const {
+  constexpr std::size_t kGroundSteps = 16;
+  return needs((ground_.size() / kGroundSteps + 1) * kGroundSteps);
+}
+
+void Streamer::beginChoice() {
+  chosenFor_ = viewers_;
+  needs_ = detailNeeds();
+  if (errorLevels_ != world_.nodeErrors().nextToCalibrate()) {
+    errorLevels_ = world_.nodeErrors().nextToCalibrate();
+    selection_->setErrors(nodeErrors(world_));
+  }
+  tryTolerance(std::max(tolerance_ / kToleranceStep, 1.0), tolerance_ > 1.0 ? kShareToRefine : kShareOfCap);
+}
+
+void Streamer::tryTolerance(double tolerance, double share) {
+  choosing_ = Choosing::selecting;
+  tried_ = tolerance;
+  share_ = share;
+  const std::size_t all = std::numeric_limits<std::size_t>::max();
+  selection_->begin(chosenFor_, tolerance, tolerance < kMostTolerance ? mostLeaves(needs_) : all);
+}
+
+/// Where even the largest tolerance does not do, there is little more than the roots.
+void Streamer::judgeChoice() {
+  if (tried_ < kMostTolerance && !(selection_->hasChosen() && fits(needs_, share_))) {
+    tryTolerance(std::min(tried_ < tolerance_ ? tolerance_ : tried_ * kToleranceStep, kMostTolerance),
+                 kShareOfCap);
     return;
   }
-  viewer_ = viewer;
-  needs_ = now;
-  selection_->setErrors(std::move(errors));
-  const auto choose = [&](double tolerance, double share) {
-    tolerance_ = tolerance;
-    return selection_->choose({&viewer, 1}, tolerance, mostLeaves(now)) && fits(now, share);
-  };
-  const double before = tolerance_;
-  bool chosen = choose(std::max(before / kToleranceStep, 1.0), before > 1.0 ? kShareToRefine : kShareOfCap) ||
-                choose(before, kShareOfCap);
-  while (!chosen && tolerance_ < kMostTolerance) chosen = choose(tolerance_ * kToleranceStep, kShareOfCap);
-  if (!chosen) static_cast<void>(selection_->choose({&viewer, 1}, tolerance_));  // little more than the roots
-  selection_->keep();
-  const std::size_t used = now.fixed + detailBytes();
-  plan_.mapBytes = std::clamp(now.cap - std::min(now.cap, used), now.leastMaps, now.mostMaps);
+  const std::size_t used = needs_.fixed + detailBytes();
+  plan_.mapBytes = std::clamp(needs_.cap - std::min(needs_.cap, used), needs_.leastMaps, needs_.mostMaps);
   maps_.setCapacity(plan_.mapBytes);
-  wantSelected(ground);
-}
-
-void Streamer::wantSelected(const std::vector<NodeKey>& ground) {
-  std::vector<NodeKey> view;
-  view.reserve(selection_->nodes().size());
-  for (const SelectedNode& node : selection_->nodes()) view.push_back(node.key);
-  rank(ground, view);
-  planDrops();
-  cancelUnwanted();
-  mayRefine_ = true;
+  refinement_.turnTo(selection_->chosen());
+  choosing_ = Choosing::turning;
 }
 
 std::size_t Streamer::detailBytes() const noexcept {
   // About half of what a border on all sides towards finer nodes takes, and as much again in the renderer.
-  const std::size_t border = nodes_.borderBytes();
-  const std::size_t leaves = selection_->leaves(), above = selection_->nodes().size() - leaves;
-  return leaves * (nodes_.drawnBytes() + nodes_.piecesBytes() + border) + above * nodes_.heldBytes();
+  const std::size_t leaves = selection_->chosen().leaves(), above = selection_->chosen().size() - leaves;
+  return leaves * (nodes_.drawnBytes() + nodes_.piecesBytes() + borderBytes_) + above * nodes_.heldBytes();
 }
 
 std::size_t Streamer::mostLeaves(const MemoryNeeds& needs) const noexcept {
@@ -224,101 +370,11 @@ bool Streamer::fits(const MemoryNeeds& needs, double share) const noexcept {
   return static_cast<double>(detailBytes()) <= share * static_cast<double>(needs.cap - taken);
 }
 
-std::vector<NodeKey> Streamer::chooseGround(std::span<const Motion> motions) const {
-  std::vector<std::vector<NodeKey>> lists;
-  lists.reserve(motions.size());
-  for (const Motion& motion : motions) {
-    GroundNodes nodes = groundNodes(motion, world_);
-    lists.push_back(std::move(nodes.wanted));
-    for (const NodeKey& key : nodes.passing) {
-      if (nodes_.heights(key)) lists.back().push_back(key);
-    }
-  }
-  // Every object's own node first, then what each will reach next. A quarter of the cap is for ground.
-  const std::size_t most = std::max(motions.size(), options_.capBytes / 4 / nodes_.heldBytes());
-  std::vector<NodeKey> ground;
-  NodeSet seen;
-  for (std::size_t k = 0, left = lists.size(); left > 0; ++k) {
-    left = 0;
-    for (const std::vector<NodeKey>& list : lists) {
-      if (k >= list.size()) continue;
-      ++left;
-      if (ground.size() < most && seen.insert(list[k]).second) ground.push_back(list[k]);
-    }
-  }
-  return ground;
-}
-
-MemoryNeeds Streamer::needs(std::size_t groundNodes) const {
-  MemoryNeeds needs;
-  needs.cap = options_.capBytes;
-  needs.radius = options_.view.radius;
-  needs.perNode = nodes_.drawnBytes() + nodes_.piecesBytes();
-  needs.fixed = kSlack + rendererExtra_ + groundNodes * nodes_.heldBytes() +
-                (mostViewBuilds_ + mostGroundBuilds_) * buildBytes_ +
-                joinBatch(options_.workers) * 2 * nodes_.piecesBytes();
-  needs.leastMaps = std::max(kLeastMapBytes, buildBytes_);
-  needs.mostMaps = std::max(kMostMapBytes, needs.leastMaps);
-  return needs;
-}
-
-void Streamer::rank(const std::vector<NodeKey>& ground, std::span<const NodeKey> view) {
-  wanted_ = ground;
-  groundCount_ = ground.size();
-  ranks_.clear();
-  for (std::size_t k = 0; k < wanted_.size(); ++k) ranks_.emplace(wanted_[k], k);
-  for (const NodeKey& key : view) {
-    if (ranks_.emplace(key, wanted_.size()).second) wanted_.push_back(key);
-  }
-  nextWanted_ = 0;
-  toJoin_.clear();
-  countMissing();
-  if (selection_) return;
-  for (std::size_t k = 0; k < wanted_.size(); ++k) {
-    if (!isThere(wanted_[k]) && nodes_.heights(wanted_[k]) && !joining_.contains(wanted_[k]))
-      toJoin_.insert(k);
-  }
-}
-
-void Streamer::countMissing() {
-  missing_ = static_cast<std::size_t>(
-      std::count_if(wanted_.begin(), wanted_.end(), [&](const NodeKey& key) { return !isThere(key); }));
-}
-
-void Streamer::planDrops() {
-  drops_.clear();
-  for (const NodeKey& key : nodes_.nodes()) {
-    if (selection_ ? nodes_.isDrawn(key) : isDrawable(key)) continue;  // with detail, until it is replaced
-    if (!ranks_.contains(key) || nodes_.isDrawn(key)) drops_.push_back(key);
-  }
-}
-
-void Streamer::cancelUnwanted() {
-  for (auto build = builds_.begin(); build != builds_.end();) {
-    if (ranks_.contains(build->first)) {
-      ++build;
-      continue;
-    }
-    runner_.cancel(build->second.ticket);
-    if (build->second.isGround) --groundBuilds_;
-    build = builds_.erase(build);
-  }
-}
-
-bool Streamer::isDrawable(const NodeKey& key) const {
-  if (selection_) return selection_->isLeaf(key);
-  return centre_ && mayStay(key, *centre_, {options_.view.level, plan_.radius}, plan_.margin);
-}
-
-bool Streamer::isThere(const NodeKey& key) const {
-  return isDrawable(key) ? nodes_.isDrawn(key) : static_cast<bool>(nodes_.heights(key));
-}
-
 // ---- Working
 
 void Streamer::work(Slice::Clock::time_point deadline) {
   meter_.beginFrame(deadline);
-  mayRefine_ = mayRefine_ || std::exchange(lacksRoom_, false);
+  lacksRoom_ = false;
   while (meter_.mayStart()) {
     collect();
     if (!meter_.step(housekeeping_)) continue;
@@ -327,20 +383,23 @@ void Streamer::work(Slice::Clock::time_point deadline) {
 }
 
 bool Streamer::Housekeeping::step(const Slice& slice) {
-  while (streamer_.tidyOne()) {
+  while (streamer_.tidyOne(slice)) {
     if (slice.over()) return false;
   }
   return true;
 }
 
-bool Streamer::tidyOne() {
+bool Streamer::tidyOne(const Slice& slice) {
   if (!drops_.empty()) {
     drop(drops_.back());
     drops_.pop_back();
+  } else if (const std::optional<NodeKey> unwanted = refinement_.takeUnwanted()) {
+    drop(*unwanted);
   } else if (!arrived_.empty()) {
     integrate(std::move(arrived_.front()));
     arrived_.pop_front();
-  } else if (!maps_.dropOldest() && !startJoin() && !startBuild() && !startCalibration()) {
+  } else if (!(selection_ && chooseSome(slice)) && !maps_.dropOldest() && !startJoin() && !startBuild() &&
+             !startCalibration()) {
     return false;
   }
   peakBytes_ = std::max(peakBytes_, bytes());
@@ -348,8 +407,13 @@ bool Streamer::tidyOne() {
 }
 
 void Streamer::drop(const NodeKey& key) {
+  if (selection_) {
+    if (nodes_.isDrawn(key) || isWanted(key)) return;
+    nodes_.erase(key);
+    lacksRoom_ = false;
+    return;
+  }
   if (nodes_.isDrawn(key)) {
-    if (selection_) return;  // drawn meanwhile
     [[maybe_unused]] const bool gone = nodes_.apply({{key}, {}}, {});
     assert(gone);  // of one level, so that no other node has a border towards it
   }
@@ -383,10 +447,12 @@ void Streamer::integrate(TaskRunner::Finished finished) {
   auto coarser =
       task.coarser().samples().empty() ? nullptr : std::make_shared<const HeightMap>(task.takeCoarser());
   nodes_.insert(key, {std::move(heights), std::move(coarser)});
-  mayRefine_ = selection_.has_value();
-  if (!isDrawable(key)) {
+  if (selection_) {
+    refinement_.noteHeld(key);
+    countMissing();
+  } else if (!isDrawable(key)) {
     --missing_;
-  } else if (!selection_) {
+  } else {
     toJoin_.insert(ranks_.at(key));
   }
 }
@@ -409,20 +475,18 @@ void Streamer::integrateJoin(const JoinTask& task) {
 }
 
 void Streamer::change(const DrawnChange& change, std::span<const BuiltPiece> pieces) {
-  mayRefine_ = true;  // further, or once more
-  if (!nodes_.apply(change, pieces)) return;
-  for (const NodeKey& key : change.remove) {
-    if (!ranks_.contains(key)) drops_.push_back(key);
+  if (!nodes_.apply(change, pieces)) {
+    refinement_.again(change);
+    return;
   }
-  countMissing();
+  refinement_.noteChange(change);
   peakMeshBytes_ = std::max(peakMeshBytes_, nodes_.meshBytes());
 }
 
 bool Streamer::startRefining() {
-  if (!mayRefine_) return false;
-  mayRefine_ = false;
-  DrawnChange next = nextChange(nodes_, *selection_, runner_.workers() > 0 ? kRefinements : 1);
-  if (next.remove.empty() && next.add.empty()) return false;
+  if (lacksRoom_ || !refinement_.mayChange()) return false;
+  DrawnChange next = refinement_.next(runner_.workers() > 0 ? kRefinements : 1);
+  if (next.remove.empty() && next.add.empty()) return true;
   auto task = std::make_unique<JoinTask>(nodes_, std::move(next));
   if (task->pieces().empty()) {
     change(task->change(), {});
@@ -430,7 +494,10 @@ bool Streamer::startRefining() {
   }
   if (calibration_ == 0 && !hasRoomFor(2 * task->bytes())) calibrator_.reset();  // later
   lacksRoom_ = !hasRoomFor(2 * task->bytes());
-  if (lacksRoom_) return false;
+  if (lacksRoom_) {
+    refinement_.again(task->change());
+    return false;
+  }
   joinBytes_ = task->bytes();
   join_ = runner_.submit(std::move(task), kJoinUrgency);
   return true;
@@ -455,32 +522,41 @@ bool Streamer::startJoin() {
   return true;
 }
 
-bool Streamer::startBuild() {
-  while (nextWanted_ < wanted_.size() &&
-         (nodes_.heights(wanted_[nextWanted_]) || builds_.contains(wanted_[nextWanted_]))) {
-    ++nextWanted_;
+/// Ground first, and all of a uniform view; then what a view by error wants.
+std::optional<Streamer::Wish> Streamer::nextWish() {
+  const auto isUnderWay = [&](const NodeKey& key) { return nodes_.heights(key) || builds_.contains(key); };
+  while (nextWanted_ < wanted_.size() && isUnderWay(wanted_[nextWanted_])) ++nextWanted_;
+  if (nextWanted_ < wanted_.size()) {
+    const auto rank = static_cast<std::int64_t>(nextWanted_);
+    const bool ground = isGround(nextWanted_);
+    return Wish{wanted_[nextWanted_], ground ? kGroundUrgency + rank : rank, ground};
   }
-  if (nextWanted_ == wanted_.size()) return false;
+  const Cut::Node* node = refinement_.absent();
+  for (; node && builds_.contains(node->key); node = refinement_.absent()) refinement_.skipAbsent();
+  if (!node) return std::nullopt;
+  return Wish{node->key, node->place, false};
+}
+
+bool Streamer::startBuild() {
+  const std::optional<Wish> wish = nextWish();
+  if (!wish) return false;
   if (calibration_ == 0 && !hasRoomFor(buildBytes_)) calibrator_.reset();  // later
   if (!hasRoomFor(buildBytes_)) return false;
-  const bool ground = isGround(nextWanted_);
-  if (ground ? groundBuilds_ >= mostGroundBuilds_ : builds_.size() - groundBuilds_ >= mostViewBuilds_) {
+  if (wish->isGround ? groundBuilds_ >= mostGroundBuilds_
+                     : builds_.size() - groundBuilds_ >= mostViewBuilds_) {
     return false;
   }
-  const NodeKey& key = wanted_[nextWanted_];
-  const auto rank = static_cast<std::int64_t>(nextWanted_);
-  const auto ticket = runner_.submit(std::make_unique<NodeTask>(world_, key, maps_, selection_.has_value()),
-                                     ground ? kGroundUrgency + rank : rank);
-  builds_.emplace(key, Build{ticket, ground});
-  if (ground) ++groundBuilds_;
-  ++nextWanted_;
+  const auto ticket = runner_.submit(
+      std::make_unique<NodeTask>(world_, wish->key, maps_, selection_.has_value()), wish->urgency);
+  builds_.emplace(wish->key, Build{ticket, wish->isGround});
+  if (wish->isGround) ++groundBuilds_;
   return true;
 }
 
 bool Streamer::startCalibration() {
   if (calibration_ != 0) return false;
   if (errorsAreKnown(world_)) calibrator_.reset();  // by now, be it through another engine
-  if (missing_ > 0 || errorsAreKnown(world_)) return false;
+  if (missing() > 0 || errorsAreKnown(world_)) return false;
   if (!calibrator_) {
     if (!hasRoomFor(calibrationBytes_)) return false;
     calibrator_ = std::make_shared<ErrorCalibration>(world_);
@@ -490,20 +566,23 @@ bool Streamer::startCalibration() {
 }
 
 bool Streamer::isMeasuring() const {
-  if (!selection_ || missing_ > 0 || wanted_.empty() || errorsAreKnown(world_)) return false;
+  if (!selection_ || !isChosen() || missing() > 0 || errorsAreKnown(world_)) return false;
   return calibration_ != 0 || calibrator_ || hasRoomFor(calibrationBytes_);
 }
 
 bool Streamer::isSettled() const {
-  if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty() || mayRefine_) return false;
-  if (missing_ == 0 && !lacksRoom_) return true;
+  if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty()) return false;
+  if (selection_ && (!isChosen() || refinement_.hasUnwanted() || (refinement_.mayChange() && !lacksRoom_))) {
+    return false;
+  }
+  if (missing() == 0 && !lacksRoom_) return true;
   // A calibration under way gives its room back.
   return calibration_ == 0 && (lacksRoom_ || !hasRoomFor(std::max(buildBytes_, 2 * nodes_.piecesBytes())));
 }
 
 std::size_t Streamer::bytes() const {
   return maps_.bytes() + nodes_.bytes() + rendererBytes_ + builds_.size() * buildBytes_ + joinBytes_ +
-         (calibrator_ ? calibrationBytes_ : 0);
+         (selection_ ? selection_->bytes() + refinement_.bytes() : 0) + (calibrator_ ? calibrationBytes_ : 0);
 }
 
 bool Streamer::hasRoomFor(std::size_t more) const {

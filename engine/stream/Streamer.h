@@ -20,7 +20,9 @@
 #include "stream/JoinTask.h"
 #include "stream/MemoryPlan.h"
 #include "stream/NodeStore.h"
+#include "stream/Refinement.h"
 #include "stream/Selection.h"
+#include "stream/View.h"
 #include "world/BaseMap.h"
 
 namespace teren {
@@ -31,7 +33,8 @@ class ErrorCalibration;
 /// tasks, takes what is finished and frees. All of the caller's work is done in slices (law 4).
 ///
 /// With detail by error, what is wanted is the cut of a Selection and everything above it, and the drawn set
-/// follows by the steps of nextChange: coarse land first, and no hole from then on.
+/// follows by the steps of a Refinement: coarse land first, and no hole from then on. Choosing is work like
+/// any other: the old cut is followed until the next one is there.
 ///
 /// Under the cap (law 6) the view's radius, or the pixel error, and the room for base maps are planned from
 /// what a node costs (MemoryPlan), as many bytes again as its meshes have set aside for the renderer's copy
@@ -44,8 +47,8 @@ class Streamer {
   /// What the cap must be at least for such a world and view: ground, one task in flight, a view of radius 1.
   static std::size_t leastCap(const World& world, const EngineOptions& options);
 
-  /// Chooses what is wanted around these objects. Cheap unless one has come to another node, or with detail
-  /// by error some metres farther.
+  /// Says what is wanted around these objects: the ground at once, and all of a uniform view, where somebody
+  /// has come to another node. Detail by error is chosen by work().
   void choose(std::span<const Motion> motions, std::size_t active);
   /// Works until the deadline or until there is nothing to do (here, or yet).
   void work(Slice::Clock::time_point deadline);
@@ -67,9 +70,9 @@ class Streamer {
   double pixelError() const noexcept {
     return options_.view.detail ? tolerance_ * options_.view.detail->pixelError : 0.0;
   }
-  std::size_t wanted() const noexcept { return wanted_.size(); }
-  std::size_t missing() const noexcept { return missing_; }        ///< of what is wanted
-  std::size_t unfinished() const { return runner_.unfinished(); }  ///< tasks
+  std::size_t wanted() const noexcept { return wanted_.size() + refinement_.wanted(); }
+  std::size_t missing() const noexcept { return missing_ + refinement_.missing(); }  ///< of what is wanted
+  std::size_t unfinished() const { return runner_.unfinished(); }                    ///< tasks
   std::size_t bytes() const;
   std::size_t peakBytes() const noexcept { return peakBytes_; }
   void setRendererBytes(std::size_t bytes) noexcept;
@@ -77,6 +80,12 @@ class Streamer {
  private:
   struct Build {
     TaskRunner::Ticket ticket;
+    bool isGround;
+  };
+  /// A node to be made next.
+  struct Wish {
+    NodeKey key;
+    std::int64_t urgency;
     bool isGround;
   };
   /// The caller's own work, as a task: freeing, integrating, handing out.
@@ -92,27 +101,35 @@ class Streamer {
   void sizeBuilds();
 
   // Choosing
-  std::vector<NodeKey> chooseGround(std::span<const Motion> motions) const;
+  void chooseGround(std::span<const Motion> motions);
   MemoryNeeds needs(std::size_t groundNodes) const;
-  void chooseUniform(const std::vector<NodeKey>& ground, const Position& eye);
-  void chooseDetail(const std::vector<NodeKey>& ground, const Motion& eye);
-  bool isViewedAsBefore(const Viewer& viewer) const;
-  void wantSelected(const std::vector<NodeKey>& ground);
-  bool fits(const MemoryNeeds& needs, double share) const noexcept;
-  /// More leaves than these cannot fit.
-  std::size_t mostLeaves(const MemoryNeeds& needs) const noexcept;
-  std::size_t detailBytes() const noexcept;
-  void rank(const std::vector<NodeKey>& ground, std::span<const NodeKey> view);
+  void chooseUniform(const Position& eye);
+  bool isGroundAsBefore() const;
+  void rank(std::span<const NodeKey> view);
   void planDrops();
   void cancelUnwanted();
-  bool isGroundAsBefore(const std::vector<NodeKey>& ground) const;
   void countMissing();
   bool isDrawable(const NodeKey& key) const;
   bool isThere(const NodeKey& key) const;
   bool isGround(std::size_t rank) const noexcept { return rank < groundCount_; }
 
+  // Detail by error
+  void chooseDetail(const Motion& eye);
+  bool isViewedAsBefore() const;
+  bool isChosen() const;
+  bool chooseSome(const Slice& slice);
+  MemoryNeeds detailNeeds() const;
+  void beginChoice();
+  void tryTolerance(double tolerance, double share);
+  void judgeChoice();
+  bool fits(const MemoryNeeds& needs, double share) const noexcept;
+  /// More leaves than these cannot fit.
+  std::size_t mostLeaves(const MemoryNeeds& needs) const noexcept;
+  std::size_t detailBytes() const noexcept;
+  bool isWanted(const NodeKey& key) const;
+
   // Working
-  bool tidyOne();
+  bool tidyOne(const Slice& slice);
   void drop(const NodeKey& key);
   void collect();
   void integrate(TaskRunner::Finished finished);
@@ -120,6 +137,7 @@ class Streamer {
   bool startJoin();
   bool startRefining();
   void change(const DrawnChange& change, std::span<const BuiltPiece> pieces);
+  std::optional<Wish> nextWish();
   bool startBuild();
   bool startCalibration();
   /// Under the cap, with the renderer's share of what is drawn already.
@@ -138,14 +156,24 @@ class Streamer {
   MemoryPlan plan_;
   std::optional<NodeKey> centre_;  // of a uniform view: its node under the active object
   // With detail by error:
+  enum class Choosing { idle, selecting, turning };
   std::optional<Selection> selection_;
-  std::optional<Viewer> viewer_;  // that it was chosen for
-  MemoryNeeds needs_;             // likewise
-  double tolerance_ = 1.0;        // of the pixel error, more than 1 under the cap
-  bool mayRefine_ = false;        // the drawn set can perhaps be brought nearer to the selection
-  bool lacksRoom_ = false;        // it can, but for want of room
-  std::size_t groundCount_ = 0;   // the first of wanted_: level-0 nodes under objects
-  std::vector<NodeKey> wanted_;   // most urgent first
+  Refinement refinement_{nodes_};
+  std::size_t borderBytes_ = 0, selectionBytes_ = 0;
+  std::vector<Viewer> viewers_, chosenFor_;  // as they are now, and as they were for the latest choice
+  MemoryNeeds needs_;                        // for the latest choice
+  int errorLevels_ = -1;                     // whose errors were measured then
+  Choosing choosing_ = Choosing::idle;
+  double tolerance_ = 1.0;  // of the pixel error, more than 1 under the cap
+  double tried_ = 1.0, share_ = 1.0;
+  bool lacksRoom_ = false;  // the drawn set can be brought nearer to the cut, but for want of room
+
+  GroundNodes groundOfOne_;
+  std::vector<std::vector<NodeKey>> groundLists_;
+  std::vector<NodeKey> ground_;
+  NodeTable groundSeen_;
+  std::size_t groundCount_ = 0;  // the first of wanted_: level-0 nodes under objects
+  std::vector<NodeKey> wanted_;  // most urgent first; of a view by error, ground only
   std::unordered_map<NodeKey, std::size_t, NodeKeyHash> ranks_;  // in wanted_
   std::size_t missing_ = 0;
   std::size_t nextWanted_ = 0;    // all before it are held or being made

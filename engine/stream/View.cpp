@@ -15,60 +15,44 @@ bool insideWorld(const NodeKey& key) noexcept {
 
 namespace {
 
-/// Times [s]; empty where from > to.
-struct Span {
-  double from = 0.0, to = std::numeric_limits<double>::infinity();
-};
-
-/// When a coordinate that begins at `at` and changes by `rate` a second is within low ... high, from now on.
-Span spanWithin(double at, double rate, double low, double high) {
-  if (rate == 0.0) return low <= at && at <= high ? Span{} : Span{0.0, -1.0};
-  const double first = (rate > 0.0 ? low - at : high - at) / rate;
-  const double last = (rate > 0.0 ? high - at : low - at) / rate;
-  return {std::max(first, 0.0), last};
-}
+/// [s] From now on.
+constexpr Span kAnyTime{0.0, std::numeric_limits<double>::infinity()};
 
 /// The cells that a coordinate comes over during a span, `margin` wide to both sides; cells are 1 wide.
 struct Cells {
   Cells(double at, double rate, const Span& span, double margin) {
-    const double a = at + rate * span.from, b = at + rate * span.to;
+    const double a = at + rate * span.begin, b = at + rate * span.end;
     first = static_cast<std::int64_t>(std::floor(std::min(a, b) - margin));
     last = static_cast<std::int64_t>(std::floor(std::max(a, b) + margin));
   }
   std::int64_t first = 0, last = 0;
 };
 
-/// A node on an object's way.
-struct Passage {
-  NodeKey key;
-  Span span;  ///< when the object is over it, or within its margin
-};
-
 /// All level-0 nodes that a square with sides of 2 `margin` [pitches] comes over within `seconds` on a
 /// straight way at so many pitches a second: its own first, then in the order in which they are reached.
-std::vector<Passage> passages(const Position& from, double eastRate, double northRate, double seconds,
-                              double margin) {
+void findPassages(const Position& from, double eastRate, double northRate, double seconds, double margin,
+                  std::vector<GroundNodes::Passage>& passages) {
+  using Passage = GroundNodes::Passage;
   const NodeKey own = nodeAt(from, 0);
-  std::vector<Passage> passages;
+  passages.clear();
   const Cells columns(from.u, eastRate, {0.0, seconds}, margin);
   for (std::int64_t column = columns.first; column <= columns.last; ++column) {
     const auto west = static_cast<double>(column);
-    const Span inColumn = spanWithin(from.u, eastRate, west - margin, west + 1.0 + margin);
-    const Cells rows(from.v, northRate, {std::min(inColumn.from, seconds), std::min(inColumn.to, seconds)},
+    const Span inColumn = spanWithin(from.u, eastRate, west - margin, west + 1.0 + margin, kAnyTime);
+    const Cells rows(from.v, northRate, {std::min(inColumn.begin, seconds), std::min(inColumn.end, seconds)},
                      margin);
     for (std::int64_t row = rows.first; row <= rows.last; ++row) {
       const auto south = static_cast<double>(row);
-      const Span inRow = spanWithin(from.v, northRate, south - margin, south + 1.0 + margin);
-      const Span span{std::max(inColumn.from, inRow.from), std::min(inColumn.to, inRow.to)};
+      const Span inRow = spanWithin(from.v, northRate, south - margin, south + 1.0 + margin, kAnyTime);
+      const Span span{std::max(inColumn.begin, inRow.begin), std::min(inColumn.end, inRow.end)};
       const NodeKey key{0, own.i + column, own.j + row};
-      if (span.from <= std::min(span.to, seconds) && insideWorld(key)) passages.push_back({key, span});
+      if (span.begin <= std::min(span.end, seconds) && insideWorld(key)) passages.push_back({key, span});
     }
   }
   std::sort(passages.begin(), passages.end(), [&own](const Passage& a, const Passage& b) {
-    return std::tuple(a.span.from, a.key != own, a.key.j, a.key.i) <
-           std::tuple(b.span.from, b.key != own, b.key.j, b.key.i);
+    return std::tuple(a.span.begin, a.key != own, a.key.j, a.key.i) <
+           std::tuple(b.span.begin, b.key != own, b.key.j, b.key.i);
   });
-  return passages;
 }
 
 }  // namespace
@@ -103,20 +87,21 @@ bool mayStay(const NodeKey& key, const NodeKey& centre, const ViewSettings& view
   return key.level == view.level && std::abs(key.i - centre.i) <= most && std::abs(key.j - centre.j) <= most;
 }
 
-GroundNodes groundNodes(const Motion& motion, const World& world) {
+void groundNodes(const Motion& motion, const World& world, GroundNodes& nodes) {
   const double pitch = world.pitch(), margin = std::max(kGroundMargin, motion.reach) / pitch;
   const double speed = std::sqrt(motion.east * motion.east + motion.north * motion.north);
   const double secondsAhead = speed > 0.0 ? std::min(kGroundSeconds, kGroundPitches * pitch / speed) : 0.0;
   const bool tooFast = !(secondsAhead >= kGroundNotice) && speed != 0.0;
   const bool moves = speed > 0.0 && !tooFast;
   const double seconds = moves ? secondsAhead : 0.0;
-  GroundNodes ground;
-  for (const auto& [key, span] : passages(motion.position, moves ? motion.east / pitch : 0.0,
-                                          moves ? motion.north / pitch : 0.0, seconds, margin)) {
-    const bool passing = tooFast || span.to + 0.5 * pitch / speed < kGroundNotice;
-    (passing ? ground.passing : ground.wanted).push_back(key);
+  nodes.wanted.clear();
+  nodes.passing.clear();
+  findPassages(motion.position, moves ? motion.east / pitch : 0.0, moves ? motion.north / pitch : 0.0,
+               seconds, margin, nodes.passages);
+  for (const auto& [key, span] : nodes.passages) {
+    const bool passing = tooFast || span.end + 0.5 * pitch / speed < kGroundNotice;
+    (passing ? nodes.passing : nodes.wanted).push_back(key);
   }
-  return ground;
 }
 
 }  // namespace teren

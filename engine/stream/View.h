@@ -7,6 +7,7 @@
 #include "teren/Engine.h"
 
 #include "patch/NodeKey.h"
+#include "stream/GridWalk.h"
 
 namespace teren {
 
@@ -30,11 +31,19 @@ struct GroundNodes {
   /// they are held, but not made. For an object faster than kGroundPitches in kGroundNotice (about 160 km/s
   /// over patches of 64 m) there are only these, and only around its place.
   std::vector<NodeKey> passing;
+
+  /// A node on an object's way.
+  struct Passage {
+    NodeKey key;
+    Span span;  ///< when the object is over it, or within its margin
+  };
+  std::vector<Passage> passages;  ///< all of them; kept for the room it has
 };
 inline constexpr double kGroundMargin = 8.0;   ///< [m]
 inline constexpr double kGroundSeconds = 2.0;  ///< [s]
 inline constexpr double kGroundNotice = 0.05;  ///< [s]
 inline constexpr double kGroundPitches = 128.0;
-GroundNodes groundNodes(const Motion& motion, const World& world);
+/// Allocates only for more nodes than `nodes` has had before.
+void groundNodes(const Motion& motion, const World& world, GroundNodes& nodes);
 
 }  // namespace teren

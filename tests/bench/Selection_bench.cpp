@@ -62,8 +62,8 @@ void timeSelection(const World& world, const DetailSettings& detail, std::size_t
     selection.keep();
     if (step >= kWarm) micros.push_back(1e6 * (processorSeconds() - start));
   }
-  std::printf("%10.1f %8zu %8zu %10.1f %10.1f", detail.pixelError, selection.nodes().size(),
-              selection.leaves(), percentile(micros, 0.5), percentile(micros, 0.99));
+  std::printf("%10.1f %8zu %8zu %10.1f %10.1f", detail.pixelError, selection.kept().size(),
+              selection.kept().leaves(), percentile(micros, 0.5), percentile(micros, 0.99));
 }
 
 void timeUpdates(const std::shared_ptr<const World>& world, const DetailSettings& detail, std::size_t steps) {
@@ -93,7 +93,7 @@ int run(std::size_t steps, double distance) {
   }
   std::printf("%10s %8s %8s %10s %10s %10s %10s %10s %8s %8s\n", "pixels", "chosen", "leaves", "choose p50",
               "p99 [us]", "update p50", "p99", "p999 [us]", "drawn", "pending");
-  for (const double pixelError : {4.0, 8.0, 16.0, 32.0}) {
+  for (const double pixelError : {2.0, 4.0, 8.0, 16.0, 32.0}) {
     const DetailSettings detail{.pixelError = pixelError, .distance = distance};
     timeSelection(**world, detail, steps);
     timeUpdates(*world, detail, steps);

@@ -22,7 +22,7 @@ struct Eye {
 };
 
 /// Of a picture `rows` pixels high with a field of view of `fieldOfView` [rad] from its bottom to its top.
-double lensPixels(int rows, double fieldOfView) noexcept;
+double lensPixels(double rows, double fieldOfView) noexcept;
 
 /// [pixel] What a mesh's error looks like from the eye: error / distance * lensPixels, with the distance of
 /// the eye from the mesh in three dimensions, or of the boxes around its triangles where the mesh is nearer

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "stream/JoinTask.h"
+#include "stream/Selection.h"
 #include "tests/engine/stream/PatchGround.h"
 
 namespace teren {
@@ -32,29 +33,21 @@ class Way {
     const Viewer viewer{
         *Position::fromMetres(east, north, 64.0), 20.0, {.pixelError = 4.0, .distance = 1500.0}};
     selection_.choose({&viewer, 1}, 1.0);
+    refinement_.turnTo(selection_.chosen());
+    while (!refinement_.turnStep(Slice::until(Slice::Clock::now())))
+      step();  // what happens meanwhile is not missed
     selection_.keep();
   }
   /// One node comes, and whatever is possible is done; false once everything is there and drawn.
   bool goOn() {
-    std::vector<NodeKey> absent;
-    for (const SelectedNode& node : selection_.nodes()) {
-      if (!store_.heights(node.key)) absent.push_back(node.key);
-    }
-    if (!absent.empty()) {
-      const auto which = static_cast<std::size_t>(dice_.whole(0, static_cast<int>(absent.size()) - 1));
-      store_.insert(absent[which], std::make_shared<const HeightMap>(kIntervals + 1, kIntervals + 1));
-    }
+    const bool arrived = arrive();
     bool changed = false;
-    for (;;) {
-      const DrawnChange change = nextChange(store_, selection_, static_cast<std::size_t>(dice_.whole(1, 3)));
-      if (change.add.empty() && change.remove.empty()) break;
-      draw(change);
-      changed = true;
-    }
-    return changed || !absent.empty();
+    while (refinement_.mayChange()) changed = step() || changed;
+    return changed || arrived;
   }
 
-  const Selection& selection() const { return selection_; }
+  const Cut& cut() const { return selection_.kept(); }
+  Refinement& refinement() { return refinement_; }
   const NodeStore& store() const { return store_; }
   std::vector<NodeKey> drawn() const {
     std::vector<NodeKey> keys;
@@ -63,6 +56,28 @@ class Way {
   }
 
  private:
+  bool arrive() {
+    const Cut& cut = selection_.kept();
+    std::vector<NodeKey> absent;
+    for (const Cut::Index index : cut.byUrgency()) {
+      if (!store_.heights(cut[index].key)) absent.push_back(cut[index].key);
+    }
+    if (absent.empty()) return false;
+    const auto which = static_cast<std::size_t>(dice_.whole(0, static_cast<int>(absent.size()) - 1));
+    store_.insert(absent[which], std::make_shared<const HeightMap>(kIntervals + 1, kIntervals + 1));
+    refinement_.noteHeld(absent[which]);
+    return true;
+  }
+  bool step() {
+    const DrawnChange change = refinement_.next(static_cast<std::size_t>(dice_.whole(1, 3)));
+    if (change.add.empty() && change.remove.empty()) return false;
+    if (dice_.whole(0, 9) == 0) {
+      refinement_.again(change);
+      return true;
+    }
+    draw(change);
+    return true;
+  }
   /// The ground that was drawn and is still within the roots must be drawn afterwards, and none twice.
   void draw(const DrawnChange& change) {
     const std::vector<NodeKey> before = drawn();
@@ -70,6 +85,7 @@ class Way {
     while (!task.step(Slice::unlimited())) {
     }
     ASSERT_TRUE(store_.apply(task.change(), task.pieces()));
+    refinement_.noteChange(task.change());
     const std::vector<NodeKey> after = drawn();
     for (const NodeKey& key : after) {
       ASSERT_EQ(store_.drawnIn(key).size(), 1U);
@@ -79,7 +95,7 @@ class Way {
       }
     }
     for (const NodeKey& key : before) {
-      if (!selection_.isRoot(key.ancestor(std::max(key.level, selection_.rootLevel())))) continue;
+      if (selection_.kept().nearest(key) == Cut::kNone) continue;
       double area = 0.0;
       for (const NodeKey& part : store_.drawnIn(key)) area += std::exp2(2 * part.level);
       ASSERT_TRUE(store_.drawnOver(key) || area == std::exp2(2 * key.level)) << "a hole";
@@ -89,12 +105,16 @@ class Way {
   Dice dice_;
   Selection selection_{ground()};
   NodeStore store_{1.0, kIntervals};
+  Refinement refinement_{store_};
 };
 
 bool isReached(const Way& way) {
   std::size_t drawn = 0;
-  way.store().forEachDrawn([&](const NodeKey& key) { drawn += way.selection().isLeaf(key) ? 1U : 0U; });
-  return drawn == way.selection().leaves() && way.store().drawnCount() == drawn;
+  way.store().forEachDrawn([&](const NodeKey& key) {
+    const Cut::Index index = way.cut().find(key);
+    drawn += index != Cut::kNone && way.cut()[index].isLeaf() ? 1U : 0U;
+  });
+  return drawn == way.cut().leaves() && way.store().drawnCount() == drawn;
 }
 
 TEST(Refinement, ReachesTheCutWhateverComesFirstWithoutAHoleOnTheWay) {
@@ -105,7 +125,7 @@ TEST(Refinement, ReachesTheCutWhateverComesFirstWithoutAHoleOnTheWay) {
     while (way.goOn() && !testing::Test::HasFatalFailure()) {
     }
     ASSERT_TRUE(isReached(way));
-    ASSERT_GT(way.selection().leaves(), 100U);
+    ASSERT_GT(way.cut().leaves(), 100U);
   }
 }
 
@@ -131,7 +151,7 @@ TEST(Refinement, OfACutThatIsDrawnIsNothing) {
   way.lookFrom(0.0, 0.0);
   while (way.goOn()) {
   }
-  const DrawnChange none = nextChange(way.store(), way.selection(), 4);
+  const DrawnChange none = way.refinement().next(4);
   EXPECT_TRUE(none.add.empty() && none.remove.empty());
 }
 

@@ -31,12 +31,27 @@ Viewer randomViewer(Dice& dice) {
                   dice.between(0.5, 8.0), dice.between(500.0, 20'000.0));
 }
 
+/// The most urgent first.
+std::vector<Cut::Node> nodesOf(const Selection& selection) {
+  std::vector<Cut::Node> nodes;
+  for (const Cut::Index index : selection.chosen().byUrgency()) nodes.push_back(selection.chosen()[index]);
+  return nodes;
+}
+
 std::vector<NodeKey> leavesOf(const Selection& selection) {
   std::vector<NodeKey> leaves;
-  for (const SelectedNode& node : selection.nodes()) {
-    if (node.isLeaf) leaves.push_back(node.key);
+  for (const Cut::Node& node : nodesOf(selection)) {
+    if (node.isLeaf()) leaves.push_back(node.key);
   }
   return leaves;
+}
+
+bool isRoot(const Cut::Node& node) {
+  return node.parent == Cut::kNone;
+}
+
+bool isIn(const Selection& selection, const NodeKey& key) {
+  return selection.chosen().find(key) != Cut::kNone;
 }
 
 using Name = std::tuple<int, std::int64_t, std::int64_t>;
@@ -46,21 +61,16 @@ std::set<Name> namesOf(const std::vector<NodeKey>& keys) {
   return names;
 }
 
-TEST(PixelsPerMetre, AreThoseOfAPinholeCamera) {
-  // 90 degrees over 1000 lines: a metre one metre away fills half of them.
-  EXPECT_NEAR(pixelsPerMetre({.lines = 1000.0, .fieldOfView = std::acos(-1.0) / 2.0}), 500.0, 1e-9);
-}
-
 TEST(Selection, ShowsNobodyALargerErrorThanIsWantedButWhereItIsAtItsFinest) {
   Dice dice(1);
   Selection selection(roughGround());
   for (int trial = 0; trial < 50; ++trial) {
     const std::vector<Viewer> viewers{randomViewer(dice), randomViewer(dice)};
     selection.choose(viewers, 1.0);
-    ASSERT_EQ(selection.leaves(), leavesOf(selection).size());
+    ASSERT_EQ(selection.chosen().leaves(), leavesOf(selection).size());
     for (const NodeKey& leaf : leavesOf(selection)) {
       ASSERT_TRUE(leaf.level == 0 || selection.seen(leaf) <= 1.0);
-      ASSERT_TRUE(selection.isLeaf(leaf) && selection.contains(leaf));
+      ASSERT_TRUE(isIn(selection, leaf));
     }
   }
 }
@@ -70,8 +80,8 @@ TEST(Selection, IsNowhereFinerThanSomeoneWantsOrBalanceDemands) {
   selection.choose(std::vector{viewerAt(10.0, 20.0, 50.0)}, 1.0);
   const std::set<Name> leaves = namesOf(leavesOf(selection));
   std::size_t forced = 0;
-  for (const SelectedNode& node : selection.nodes()) {
-    if (!node.isLeaf && selection.seen(node.key) <= 1.0) ++forced;
+  for (const Cut::Node& node : nodesOf(selection)) {
+    if (!node.isLeaf() && selection.seen(node.key) <= 1.0) ++forced;
   }
   EXPECT_LT(forced, leaves.size() / 8);
 }
@@ -83,10 +93,10 @@ TEST(Selection, CoversItsRootsOnceWithNeighboursAtMostOneLevelApart) {
     selection.choose(std::vector{randomViewer(dice)}, 1.0);
     const std::vector<NodeKey> leaves = leavesOf(selection);
     double area = 0.0, roots = 0.0;
-    for (const SelectedNode& node : selection.nodes()) {
+    for (const Cut::Node& node : nodesOf(selection)) {
       const double side = std::exp2(node.key.level);
-      if (node.isLeaf) area += side * side;
-      if (selection.isRoot(node.key)) roots += side * side;
+      if (node.isLeaf()) area += side * side;
+      if (isRoot(node)) roots += side * side;
     }
     ASSERT_EQ(area, roots);
     for (const NodeKey& a : leaves) {
@@ -102,8 +112,8 @@ TEST(Selection, HasNoCoarserRootsThanMayLieBesideTheFinest) {
   ground.coarsest = 3;
   Selection selection(ground);
   ASSERT_TRUE(selection.choose(std::vector{viewerAt(10.0, 20.0, 50.0, 8.0, 20'000.0)}, 1.0));
-  EXPECT_EQ(selection.rootLevel(), 3);
-  for (const SelectedNode& node : selection.nodes()) ASSERT_LE(node.key.level, 3);
+  EXPECT_EQ(selection.chosen().rootLevel(), 3);
+  for (const Cut::Node& node : nodesOf(selection)) ASSERT_LE(node.key.level, 3);
 }
 
 TEST(Selection, WantsTheNearestRootsFirst) {
@@ -114,13 +124,13 @@ TEST(Selection, WantsTheNearestRootsFirst) {
   ASSERT_TRUE(selection.choose(std::vector{viewer}, 1.0));
   double farthest = 0.0;
   std::size_t roots = 0;
-  for (const SelectedNode& node : selection.nodes()) {
-    if (!selection.isRoot(node.key)) continue;
+  for (const Cut::Node& node : nodesOf(selection)) {
+    if (!isRoot(node)) continue;
     const Offset corner = offset(viewer.position, {node.key.i * 8, node.key.j * 8, 0.0, 0.0}, 64.0);
     const double east = std::max({corner.east, -corner.east - 512.0, 0.0});
     const double north = std::max({corner.north, -corner.north - 512.0, 0.0});
     const double away = std::hypot(east, north);
-    EXPECT_GE(away, farthest - 1e-6);
+    EXPECT_GE(away, farthest - 0.01);  // urgencies are floats
     farthest = std::max(farthest, away);
     ++roots;
   }
@@ -131,11 +141,11 @@ TEST(Selection, GivesUpWhereThereAreMoreNodesThanMayBe) {
   Selection selection(roughGround());
   const std::vector<Viewer> viewers{viewerAt(10.0, 20.0, 50.0)};
   ASSERT_TRUE(selection.choose(viewers, 1.0));
-  const std::size_t leaves = selection.leaves();
+  const std::size_t leaves = selection.chosen().leaves();
   EXPECT_FALSE(selection.choose(viewers, 1.0, leaves / 4));
-  EXPECT_TRUE(selection.nodes().empty());
+  EXPECT_TRUE(selection.chosen().size() == 0U);
   EXPECT_TRUE(selection.choose(viewers, 1.0, leaves + 3));
-  EXPECT_EQ(selection.leaves(), leaves);
+  EXPECT_EQ(selection.chosen().leaves(), leaves);
 }
 
 TEST(Selection, ListsTheMostUrgentFirstAndNothingBeforeWhatIsAboveIt) {
@@ -143,11 +153,11 @@ TEST(Selection, ListsTheMostUrgentFirstAndNothingBeforeWhatIsAboveIt) {
   selection.choose(std::vector{viewerAt(0.0, 0.0, 100.0), viewerAt(9000.0, 0.0, 100.0)}, 1.0);
   std::set<Name> before;
   double urgency = INFINITY;
-  for (const SelectedNode& node : selection.nodes()) {
+  for (const Cut::Node& node : nodesOf(selection)) {
     ASSERT_LE(node.urgency, urgency);
     urgency = node.urgency;
     const NodeKey above = node.key.parent();
-    ASSERT_TRUE(selection.isRoot(node.key) || before.contains({above.level, above.j, above.i}));
+    ASSERT_TRUE(isRoot(node) || before.contains({above.level, above.j, above.i}));
     before.insert({node.key.level, node.key.j, node.key.i});
   }
 }
@@ -171,15 +181,16 @@ TEST(Selection, GivesEachViewerItsOwnErrorAndDistance) {
   EXPECT_GE(finest(leavesOf(both), 730, 760), 3);  // a mile from the other
   EXPECT_LE(finest(leavesOf(both), 20, 31), 2);    // as far from the one
   EXPECT_GT(leavesOf(sharp).size(), leavesOf(coarse).size());
-  EXPECT_TRUE(both.contains(nodeAt(other.position, both.rootLevel())));
-  EXPECT_FALSE(both.contains(nodeAt(*Position::fromMetres(25'000.0, 0.0, 64.0), both.rootLevel())));
+  EXPECT_TRUE(isIn(both, nodeAt(other.position, both.chosen().rootLevel())));
+  EXPECT_FALSE(isIn(both, nodeAt(*Position::fromMetres(25'000.0, 0.0, 64.0), both.chosen().rootLevel())));
 }
 
 TEST(Selection, HalfTheErrorTakesTwoToSixTimesTheNodes) {
   Selection fine(roughGround()), coarse(roughGround());
   fine.choose(std::vector{viewerAt(0.0, 0.0, 100.0, 1.0, 20'000.0)}, 1.0);
   coarse.choose(std::vector{viewerAt(0.0, 0.0, 100.0, 2.0, 20'000.0)}, 1.0);
-  const double ratio = static_cast<double>(fine.leaves()) / static_cast<double>(coarse.leaves());
+  const double ratio =
+      static_cast<double>(fine.chosen().leaves()) / static_cast<double>(coarse.chosen().leaves());
   EXPECT_GT(ratio, 2.0);
   EXPECT_LT(ratio, 6.0);
 }
@@ -210,12 +221,93 @@ TEST(Selection, KeepsWhatIsSplitUntilItsErrorIsAFifthSmaller) {
     nodesAt(moved, 0.0);
     moved.keep();
     if (nodesAt(moved, east) != nodesAt(fresh, east)) ++kept;
-    EXPECT_GE(moved.leaves(), fresh.leaves());
+    EXPECT_GE(moved.chosen().leaves(), fresh.chosen().leaves());
   }
   EXPECT_GE(kept, 5);
   selection.choose(std::vector{viewerAt(1e6, 0.0, 100.0)}, 1.0);
   selection.keep();
   EXPECT_EQ(nodesAt(selection, 0.0), there);  // what was left long ago is forgotten
+}
+
+bool isSame(const Cut::Node& a, const Cut::Node& b) {
+  return a.key == b.key && a.isLeaf() == b.isLeaf() && a.urgency == b.urgency;
+}
+
+TEST(Selection, IsTheSameInWhateverSlices) {
+  Selection whole(roughGround()), sliced(roughGround());
+  for (int step = 0; step < 20; ++step) {
+    const Viewer viewer = viewerAt(200.0 * step, 0.0, 100.0);
+    whole.choose({&viewer, 1}, 1.0);
+    sliced.begin({&viewer, 1}, 1.0);
+    int slices = 1;
+    while (!sliced.step(Slice::until(Slice::Clock::now()))) ++slices;
+    ASSERT_GT(slices, 10);
+    const std::vector<Cut::Node> ofA = nodesOf(whole), ofB = nodesOf(sliced);
+    ASSERT_TRUE(std::equal(ofA.begin(), ofA.end(), ofB.begin(), ofB.end(), isSame));
+    whole.keep();
+    sliced.keep();
+  }
+}
+
+TEST(Selection, KeepsWhatWasKeptUntilTheNextIs) {
+  Selection selection(roughGround());
+  selection.choose(std::vector{viewerAt(0.0, 0.0, 100.0)}, 1.0);
+  selection.keep();
+  const std::size_t kept = selection.kept().size();
+  selection.choose(std::vector{viewerAt(0.0, 0.0, 100.0, 0.5)}, 1.0);
+  EXPECT_EQ(selection.kept().size(), kept);
+  EXPECT_GT(selection.chosen().size(), kept);
+}
+
+TEST(Selection, KeepsRootsALittleLongerThanItWouldTakeThem) {
+  const auto roots = [](const Selection& selection) {
+    std::size_t count = 0;
+    for (const Cut::Node& node : nodesOf(selection)) count += isRoot(node) ? 1U : 0U;
+    return count;
+  };
+  Selection selection(roughGround()), fresh(roughGround());
+  selection.choose(std::vector{viewerAt(0.0, 0.0, 100.0)}, 1.0);
+  selection.keep();
+  const std::size_t before = roots(selection);
+  selection.choose(std::vector{viewerAt(900.0, 0.0, 100.0)}, 1.0);
+  selection.keep();
+  const std::size_t both = roots(selection);
+  EXPECT_GT(both, before);  // what came is there, and so is what was
+  selection.choose(std::vector{viewerAt(0.0, 0.0, 100.0)}, 1.0);
+  EXPECT_EQ(roots(selection), both);
+  fresh.choose(std::vector{viewerAt(0.0, 0.0, 100.0)}, 1.0);
+  EXPECT_EQ(roots(fresh), before);
+  selection.keep();
+  selection.choose(std::vector{viewerAt(1e6, 0.0, 100.0)}, 1.0);
+  EXPECT_LE(roots(selection), 2 * before);
+}
+
+TEST(Selection, WantsWhatAViewerWillSeeSoonLikeWhatItSees) {
+  Selection resting(roughGround()), flying(roughGround()), there(roughGround());
+  Viewer viewer = viewerAt(0.0, 0.0, 100.0);
+  resting.choose({&viewer, 1}, 1.0);
+  viewer.east = 600.0;
+  flying.choose({&viewer, 1}, 1.0);
+  const Viewer later = viewerAt(600.0, 0.0, 100.0);
+  there.choose({&later, 1}, 1.0);
+  for (const NodeKey& leaf : leavesOf(flying)) {
+    ASSERT_TRUE(leaf.level == 0 || resting.seen(leaf) <= 1.0);
+    ASSERT_TRUE(leaf.level == 0 || there.seen(leaf) <= 1.0);
+  }
+  EXPECT_GT(flying.chosen().leaves(), resting.chosen().leaves());
+  EXPECT_LT(flying.chosen().leaves(), 2 * resting.chosen().leaves());
+}
+
+TEST(Selection, ForgetsWhatIsSplitWhenMoreIsKnownOfErrors) {
+  Selection selection(roughGround()), fresh(roughGround());
+  const std::vector<Viewer> here{viewerAt(0.0, 0.0, 100.0)}, near{viewerAt(100.0, 0.0, 100.0)};
+  selection.choose(near, 1.0);
+  selection.keep();
+  const std::vector<double> errors(selection.errors().begin(), selection.errors().end());
+  selection.setErrors(errors);
+  selection.choose(here, 1.0);
+  fresh.choose(here, 1.0);
+  EXPECT_EQ(namesOf(leavesOf(selection)), namesOf(leavesOf(fresh)));
 }
 
 TEST(Selection, IsTheSameForTheSameViewers) {
@@ -227,10 +319,8 @@ TEST(Selection, IsTheSameForTheSameViewers) {
       selection->choose(std::vector{viewer}, 1.0);
       selection->keep();
     }
-    ASSERT_TRUE(std::equal(a.nodes().begin(), a.nodes().end(), b.nodes().begin(), b.nodes().end(),
-                           [](const SelectedNode& x, const SelectedNode& y) {
-                             return x.key == y.key && x.isLeaf == y.isLeaf && x.urgency == y.urgency;
-                           }));
+    const std::vector<Cut::Node> ofA = nodesOf(a), ofB = nodesOf(b);
+    ASSERT_TRUE(std::equal(ofA.begin(), ofA.end(), ofB.begin(), ofB.end(), isSame));
   }
 }
 
@@ -238,7 +328,7 @@ TEST(Selection, EndsWithTheWorld) {
   Selection selection(roughGround());
   const Viewer viewer{{kMaxPatch - 1, -kMaxPatch, 0.5, 0.5}, 100.0, {.distance = 5000.0}};
   selection.choose(std::vector{viewer}, 1.0);
-  for (const SelectedNode& node : selection.nodes()) {
+  for (const Cut::Node& node : nodesOf(selection)) {
     EXPECT_LT(node.key.i << node.key.level, kMaxPatch);
     EXPECT_GE(node.key.j << node.key.level, -kMaxPatch);
   }

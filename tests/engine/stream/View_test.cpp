@@ -13,6 +13,12 @@
 namespace teren {
 namespace {
 
+GroundNodes groundOf(const Motion& motion, const World& world) {
+  GroundNodes nodes;
+  groundNodes(motion, world, nodes);
+  return nodes;
+}
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::shared_ptr<const World> plainWorld() {
@@ -33,10 +39,10 @@ std::set<std::pair<std::int64_t, std::int64_t>> places(const std::vector<NodeKey
 
 TEST(GroundNodes, OfAStandingObjectAreThoseAroundItItsOwnFirst) {
   const auto world = plainWorld();
-  const GroundNodes inside = groundNodes({{3, -4, 0.5, 0.5}}, *world);
+  const GroundNodes inside = groundOf({{3, -4, 0.5, 0.5}}, *world);
   EXPECT_EQ(inside.wanted, (std::vector<NodeKey>{{0, 3, -4}}));
   EXPECT_TRUE(inside.passing.empty());
-  const GroundNodes corner = groundNodes({{3, -4, 0.01, 0.99}}, *world);
+  const GroundNodes corner = groundOf({{3, -4, 0.01, 0.99}}, *world);
   EXPECT_EQ(corner.wanted.front(), (NodeKey{0, 3, -4}));
   EXPECT_EQ(places(corner.wanted),
             (std::set<std::pair<std::int64_t, std::int64_t>>{{3, -4}, {2, -4}, {3, -3}, {2, -3}}));
@@ -44,7 +50,7 @@ TEST(GroundNodes, OfAStandingObjectAreThoseAroundItItsOwnFirst) {
 
 TEST(GroundNodes, ReachAsFarAsTheObjectDoes) {
   const auto world = plainWorld();
-  const GroundNodes nodes = groundNodes({{0, 0, 0.5, 0.5}, 0, 0, 0, 0, 100.0}, *world);
+  const GroundNodes nodes = groundOf({{0, 0, 0.5, 0.5}, 0, 0, 0, 0, 100.0}, *world);
   EXPECT_EQ(nodes.wanted.size(), 25U);
 }
 
@@ -52,7 +58,7 @@ TEST(GroundNodes, FollowTheWayWithoutAGapAtAnySpeed) {
   const auto world = plainWorld();
   for (const double speed : {10.0, 60.0, 300.0, 1279.0, 1e4, 1e5}) {
     const Motion motion{{7, 9, 0.3, 0.8}, 0.0, 0.6 * speed, -0.8 * speed};
-    const GroundNodes nodes = groundNodes(motion, *world);
+    const GroundNodes nodes = groundOf(motion, *world);
     std::set<std::pair<std::int64_t, std::int64_t>> known = places(nodes.wanted);
     for (const auto& place : places(nodes.passing)) EXPECT_TRUE(known.insert(place).second) << "twice";
     const double seconds = std::min(kGroundSeconds, kGroundPitches * 64.0 / speed);
@@ -73,7 +79,7 @@ TEST(GroundNodes, IncludeThoseOfWhichOnlyACornerIsCrossed) {
     const double speed = 500.0 * draw(), east = 2.0 * draw() - 1.0, north = 2.0 * draw() - 1.0;
     const double length = std::sqrt(east * east + north * north);
     const Motion motion{{-3, 5, draw(), draw()}, 0.0, speed * east / length, speed * north / length};
-    const auto known = places(groundNodes(motion, *world).wanted);
+    const auto known = places(groundOf(motion, *world).wanted);
     std::set<std::pair<std::int64_t, std::int64_t>> met;
     for (int k = 0; k <= 2000; ++k) {
       const double time = kGroundSeconds * k / 2000.0;
@@ -92,7 +98,7 @@ TEST(GroundNodes, IncludeThoseOfWhichOnlyACornerIsCrossed) {
 
 TEST(GroundNodes, ComeInTheOrderInWhichTheyAreReached) {
   const auto world = plainWorld();
-  const GroundNodes nodes = groundNodes({{0, 0, 0.5, 0.5}, 0.0, 0.0, 1000.0}, *world);
+  const GroundNodes nodes = groundOf({{0, 0, 0.5, 0.5}, 0.0, 0.0, 1000.0}, *world);
   ASSERT_EQ(nodes.wanted.size(), 32U);
   for (std::size_t k = 0; k < nodes.wanted.size(); ++k) {
     EXPECT_EQ(nodes.wanted[k], (NodeKey{0, 0, static_cast<std::int64_t>(k)}));
@@ -101,12 +107,12 @@ TEST(GroundNodes, ComeInTheOrderInWhichTheyAreReached) {
 
 TEST(GroundNodes, ThatCannotBeReadyInTimeAreOnlyKept) {
   const auto world = plainWorld();
-  const GroundNodes fast = groundNodes({{0, 0, 0.5, 0.5}, 0.0, 1e4, 0.0}, *world);
+  const GroundNodes fast = groundOf({{0, 0, 0.5, 0.5}, 0.0, 1e4, 0.0}, *world);
   EXPECT_EQ(fast.passing.front(), (NodeKey{0, 0, 0}));
   EXPECT_GE(fast.wanted.front().i, 7);  // 500 m away
   EXPECT_GT(fast.wanted.size(), 100U);
   for (const double speed : {1e6, 1e300, kInfinity}) {
-    const GroundNodes mad = groundNodes({{0, 0, 0.5, 0.5}, 0.0, speed, 0.0}, *world);
+    const GroundNodes mad = groundOf({{0, 0, 0.5, 0.5}, 0.0, speed, 0.0}, *world);
     EXPECT_TRUE(mad.wanted.empty()) << speed;
     EXPECT_EQ(mad.passing.front(), (NodeKey{0, 0, 0})) << speed;
   }
@@ -114,7 +120,7 @@ TEST(GroundNodes, ThatCannotBeReadyInTimeAreOnlyKept) {
 
 TEST(GroundNodes, EndWithTheWorld) {
   const auto world = plainWorld();
-  const GroundNodes nodes = groundNodes({{kMaxPatch - 3, 0, 0.5, 0.5}, 0.0, 1000.0, 0.0}, *world);
+  const GroundNodes nodes = groundOf({{kMaxPatch - 3, 0, 0.5, 0.5}, 0.0, 1000.0, 0.0}, *world);
   EXPECT_LE(nodes.wanted.size(), 3U);
   EXPECT_FALSE(nodes.wanted.empty());
 }
