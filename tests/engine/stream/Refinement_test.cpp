@@ -34,8 +34,11 @@ class Way {
         *Position::fromMetres(east, north, 64.0), 20.0, {.pixelError = 4.0, .distance = 1500.0}};
     selection_.choose({&viewer, 1}, 1.0);
     refinement_.turnTo(selection_.chosen());
-    while (!refinement_.turnStep(Slice::until(Slice::Clock::now())))
-      step();  // what happens meanwhile is not missed
+    while (
+        !refinement_.turnStep(Slice::until(Slice::Clock::now()))) {  // what happens meanwhile is not missed
+      arrive();
+      step();
+    }
     selection_.keep();
   }
   /// One node comes, and whatever is possible is done; false once everything is there and drawn.
@@ -43,7 +46,13 @@ class Way {
     const bool arrived = arrive();
     bool changed = false;
     while (refinement_.mayChange()) changed = step() || changed;
+    EXPECT_EQ(refinement_.missing(), missing());
     return changed || arrived;
+  }
+
+  void arriveAll() {
+    while (arrive()) {
+    }
   }
 
   const Cut& cut() const { return selection_.kept(); }
@@ -56,6 +65,14 @@ class Way {
   }
 
  private:
+  std::size_t missing() const {
+    std::size_t count = 0;
+    for (const Cut::Index index : cut().byUrgency()) {
+      const Cut::Node& node = cut()[index];
+      count += (node.isLeaf() ? store_.isDrawn(node.key) : store_.heights(node.key) != nullptr) ? 0U : 1U;
+    }
+    return count;
+  }
   bool arrive() {
     const Cut& cut = selection_.kept();
     std::vector<NodeKey> absent;
@@ -127,6 +144,14 @@ TEST(Refinement, ReachesTheCutWhateverComesFirstWithoutAHoleOnTheWay) {
     ASSERT_TRUE(isReached(way));
     ASSERT_GT(way.cut().leaves(), 100U);
   }
+}
+
+TEST(Refinement, ThinksAgainOfNodesThatHadToWaitForACoarserOneBesideThem) {
+  Way way(1);
+  way.lookFrom(100.0, 100.0);
+  way.arriveAll();  // so nothing else reminds of them
+  way.goOn();
+  EXPECT_TRUE(isReached(way));
 }
 
 TEST(Refinement, FollowsAViewerWhoNeverWaitsForIt) {
