@@ -10,14 +10,13 @@ void DurationLog::add(std::chrono::nanoseconds duration) noexcept {
   microseconds_[count_++] = std::chrono::duration<float, std::micro>(duration).count();
 }
 
-Percentiles DurationLog::percentiles() const {
-  if (count_ == 0) return {};
-  std::vector<float> values(microseconds_.begin(),
-                            microseconds_.begin() + static_cast<std::ptrdiff_t>(count_));
-  std::sort(values.begin(), values.end());
+Percentiles percentilesOf(std::span<const float> values) {
+  if (values.empty()) return {};
+  std::vector<float> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
   const auto ranked = [&](std::size_t thousandths) {
-    const std::size_t rank = (thousandths * values.size() + 999) / 1000;  // rounded up
-    return static_cast<double>(values[rank - 1]);
+    const std::size_t rank = (thousandths * sorted.size() + 999) / 1000;  // rounded up
+    return static_cast<double>(sorted[rank - 1]);
   };
   return {ranked(500), ranked(990), ranked(999), ranked(1000)};
 }

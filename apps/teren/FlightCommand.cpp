@@ -35,12 +35,29 @@ Result<std::int64_t> whole(const CLI::Option& option, std::int64_t otherwise, st
   return wholeArgument(option.get_name(), argument(option), min, max);
 }
 
+double rounded(double value) {
+  return std::round(value * 1e3) / 1e3;
+}
+
 OrderedJson asJson(const Percentiles& percentiles) {
-  const auto rounded = [](double value) { return std::round(value * 1e3) / 1e3; };
   return {{"p50", rounded(percentiles.p50)},
           {"p99", rounded(percentiles.p99)},
           {"p999", rounded(percentiles.p999)},
           {"max", rounded(percentiles.max)}};
+}
+
+OrderedJson asJson(const FlownPixelError& error) {
+  OrderedJson answer = {{"wanted", error.wanted}, {"frames", error.frames}, {"reached", error.reached}};
+  answer["seen"] = asJson(error.seen);
+  return answer;
+}
+
+OrderedJson asJson(const HeldMemory& held) {
+  return {{"seconds", held.seconds},
+          {"rss_bytes", held.resident},
+          {"engine_bytes", held.engine},
+          {"used_bytes", held.used},
+          {"unused_bytes", held.unused}};
 }
 
 OrderedJson asJson(const FlightResult& result) {
@@ -48,13 +65,16 @@ OrderedJson asJson(const FlightResult& result) {
                         {"cpu_us", asJson(result.cpu)},
                         {"wall_us", asJson(result.wall)},
                         {"spinner_us", asJson(result.spinner)},
+                        {"spinner_cpu_us", asJson(result.spinnerCpu)},
                         {"late_slices", result.engine.lateSlices},
                         {"missing", result.missing},
                         {"nodes", result.engine.nodes},
                         {"peak_bytes", result.engine.peakBytes},
                         {"rss_bytes", result.residentBytes},
                         {"hash", hashDigits(result.hash)}};
+  if (result.pixelError) answer["pixel_error"] = asJson(*result.pixelError);
   if (result.residentAt60Seconds) answer["rss_bytes_at_60_s"] = *result.residentAt60Seconds;
+  for (const HeldMemory& held : result.memory) answer["memory"].push_back(asJson(held));
   if (result.hashAt30Seconds) answer["hash_at_30_s"] = hashDigits(*result.hashAt30Seconds);
   return answer;
 }
@@ -69,14 +89,30 @@ std::string mebibytes(std::size_t bytes) {
   return numberText(std::round(static_cast<double>(bytes) / 0x1p20 * 10.0) / 10.0) + " MiB";
 }
 
+std::string asText(const FlownPixelError& error) {
+  return "pixel error of at most " + numberText(error.wanted) + " in " + std::to_string(error.reached) +
+         " of " + std::to_string(error.frames) + " frames after the first ten seconds: p50 " +
+         numberText(rounded(error.seen.p50)) + ", p99 " + numberText(rounded(error.seen.p99)) + ", max " +
+         numberText(rounded(error.seen.max)) + "\n";
+}
+
+std::string asText(const HeldMemory& held) {
+  return "after " + std::to_string(held.seconds) + " s: " + mebibytes(held.engine) + " held by the engine, " +
+         mebibytes(held.resident) + " by the program, " + mebibytes(held.used) + " of them allocated, " +
+         mebibytes(held.unused) + " kept by the allocator\n";
+}
+
 std::string asText(const FlightResult& result) {
+  std::string more;
+  if (result.pixelError) more += asText(*result.pixelError);
+  for (const HeldMemory& held : result.memory) more += asText(held);
   return std::to_string(result.updates) + " updates, " + std::to_string(result.missing) +
          " of them without finest ground under an object, " + std::to_string(result.engine.lateSlices) +
          " late slices\n" + microseconds("CPU time of an update", result.cpu) +
          microseconds("wall time of an update", result.wall) +
          microseconds("wall time of an empty loop", result.spinner) + std::to_string(result.engine.nodes) +
          " nodes, at most " + mebibytes(result.engine.peakBytes) + " held by the engine, " +
-         mebibytes(result.residentBytes) + " by the program, hash " + hashDigits(result.hash) + "\n";
+         mebibytes(result.residentBytes) + " by the program, hash " + hashDigits(result.hash) + "\n" + more;
 }
 
 class FlightCommand final : public Command {

@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <fstream>
+#include <malloc.h>
 #include <thread>
 #include <tuple>
 #include <unistd.h>
 #include <utility>
 
+#include "teren/PixelError.h"
 #include "teren/ProcessorTime.h"
+
+#include "apps/teren/PictureAhead.h"
 
 namespace teren {
 namespace {
@@ -16,6 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kStep = 1.0 / static_cast<double>(kUpdatesPerSecond);  // [s]
+constexpr std::int64_t kFirstFrames = 10 * kUpdatesPerSecond;           // whose pixel errors do not count
 
 std::size_t residentBytes() {
   std::size_t program = 0, resident = 0;
@@ -65,7 +71,13 @@ MeasuredFlight::MeasuredFlight(std::shared_ptr<const World> world, const FlightP
       plan_(plan),
       cpu_(static_cast<std::size_t>(plan.updates)),
       wall_(static_cast<std::size_t>(plan.updates)),
-      spinner_(static_cast<std::size_t>(plan.updates)) {}
+      spinner_(static_cast<std::size_t>(plan.updates)),
+      spinnerCpu_(static_cast<std::size_t>(plan.updates)) {
+  result_.memory.reserve(static_cast<std::size_t>(plan.updates / (60 * kUpdatesPerSecond)));
+  if (!plan.engine.view.detail) return;
+  pixelErrors_.resize(static_cast<std::size_t>(std::max<std::int64_t>(plan.updates - kFirstFrames, 0)));
+  pixelErrors_.clear();  // touched, so that the program does not grow by it
+}
 
 Result<std::unique_ptr<MeasuredFlight>> MeasuredFlight::create(std::shared_ptr<const World> world,
                                                                const FlightPlan& plan) {
@@ -89,6 +101,8 @@ FlightResult MeasuredFlight::fly(const std::function<bool(std::int64_t, std::int
     next += kFrame;
     update();
     lookAtGround(done);
+    lookAtPicture(done);
+    if (result_.updates % (60 * kUpdatesPerSecond) == 0) lookAtMemory(result_.updates / kUpdatesPerSecond);
     if (!plan_.paced || done % kUpdatesPerSecond == 0 || Clock::now() + plan_.budget < next) spin();
     if (plan_.paced) {
       std::this_thread::sleep_until(next);
@@ -101,6 +115,8 @@ FlightResult MeasuredFlight::fly(const std::function<bool(std::int64_t, std::int
   result_.cpu = cpu_.percentiles();
   result_.wall = wall_.percentiles();
   result_.spinner = spinner_.percentiles();
+  result_.spinnerCpu = spinnerCpu_.percentiles();
+  if (result_.pixelError) result_.pixelError->seen = percentilesOf(pixelErrors_);
   result_.engine = engine_->figures();
   result_.hash = hash_.value();
   result_.residentBytes = residentBytes();
@@ -126,7 +142,29 @@ void MeasuredFlight::lookAtGround(std::int64_t update) {
   if (missing && update >= kUpdatesPerSecond) ++result_.missing;
   result_.updates = update + 1;
   if (result_.updates == 30 * kUpdatesPerSecond) result_.hashAt30Seconds = hash_.value();
-  if (result_.updates == 60 * kUpdatesPerSecond) result_.residentAt60Seconds = residentBytes();
+}
+
+void MeasuredFlight::lookAtPicture(std::int64_t update) {
+  const std::optional<DetailSettings>& detail = plan_.engine.view.detail;
+  if (!detail) return;
+  if (!result_.pixelError) result_.pixelError = FlownPixelError{.wanted = detail->pixelError, .seen = {}};
+  if (update < kFirstFrames) return;
+  ++result_.pixelError->frames;
+  const Motion eye = engine_->object(engine_->active()).motion();
+  if (!engine_->drawnHeight(eye.position)) return;  // nothing drawn is not nothing wrong
+  const double lens = lensPixels(static_cast<int>(std::lround(detail->lines)), detail->fieldOfView);
+  const Scene ahead = PictureAhead(*world_, eye, *detail).of(*engine_->scene());
+  const double seen = pixelError(*world_, ahead, {eye.position, eye.height, lens}).max;
+  pixelErrors_.push_back(static_cast<float>(seen));
+  if (seen <= detail->pixelError) ++result_.pixelError->reached;
+}
+
+void MeasuredFlight::lookAtMemory(std::int64_t seconds) {
+  const struct mallinfo2 heap = mallinfo2();
+  const HeldMemory held{seconds, residentBytes(), engine_->figures().bytes, heap.uordblks + heap.hblkhd,
+                        heap.fordblks};
+  if (result_.memory.empty()) result_.residentAt60Seconds = held.resident;
+  result_.memory.push_back(held);
 }
 
 void MeasuredFlight::waitForWorkers(Clock::time_point most) const {
@@ -139,8 +177,10 @@ void MeasuredFlight::waitForWorkers(Clock::time_point most) const {
 
 void MeasuredFlight::spin() {
   const Clock::time_point start = Clock::now();
+  const std::chrono::nanoseconds used = threadProcessorTime();
   Clock::time_point now = start;
   while (now - start < plan_.budget) now = Clock::now();
+  spinnerCpu_.add(threadProcessorTime() - used);
   spinner_.add(now - start);
 }
 

@@ -61,10 +61,10 @@ std::string hashOfHeight(double height, int times) {
 TEST(FlightCommand, AnswersWithItsFigures) {
   const Json answer = flightJson({"--seconds", "0.5", "--fast"});
   EXPECT_EQ(keysOf(answer),
-            (std::set<std::string>{"updates", "cpu_us", "wall_us", "spinner_us", "late_slices", "missing",
-                                   "nodes", "peak_bytes", "rss_bytes", "hash"}));
+            (std::set<std::string>{"updates", "cpu_us", "wall_us", "spinner_us", "spinner_cpu_us",
+                                   "late_slices", "missing", "nodes", "peak_bytes", "rss_bytes", "hash"}));
   EXPECT_EQ(answer.at("updates"), 30);
-  for (const char* key : {"cpu_us", "wall_us", "spinner_us"}) {
+  for (const char* key : {"cpu_us", "wall_us", "spinner_us", "spinner_cpu_us"}) {
     const Json& times = answer.at(key);
     EXPECT_EQ(keysOf(times), (std::set<std::string>{"p50", "p99", "p999", "max"}));
     EXPECT_GT(times.at("p50"), 0.0);
@@ -83,6 +83,36 @@ TEST(FlightCommand, TellsPeopleTheSame) {
   EXPECT_EQ(answer.exitCode, 0) << answer.complaint;
   EXPECT_NE(answer.output.find("6 updates"), std::string::npos) << answer.output;
   EXPECT_NE(answer.output.find(hashOfHeight(1.0, 6)), std::string::npos) << answer.output;
+}
+
+/// The ground at sea level and the eye 100 m above it, standing or not, for so long.
+Json detailedFlight(const Arguments& added) {
+  Arguments all = {"--fast", "--pixel-error", "16", "--view-distance", "2000"};
+  all.insert(all.end(), added.begin(), added.end());
+  const Json answer = flightJson(all);
+  const Json& error = answer.at("pixel_error");
+  EXPECT_EQ(keysOf(error), (std::set<std::string>{"wanted", "frames", "reached", "seen"}));
+  EXPECT_EQ(error.at("wanted"), 16.0);
+  return error;
+}
+
+TEST(FlightCommand, CountsTheFramesAfterTenSecondsWhosePixelErrorIsAsWanted) {
+  EXPECT_EQ(detailedFlight({"--seconds", "10", "--generator", "flat", "--budget-us", "100"}).at("frames"), 0);
+  const Json flat = detailedFlight({"--seconds", "11", "--generator", "flat", "--budget-us", "100"});
+  EXPECT_EQ(flat.at("frames"), 60);
+  EXPECT_EQ(flat.at("reached"), 60);
+  EXPECT_EQ(flat.at("seen").at("max"), 0.0);
+  // Who stands still for long enough sees what he wanted, and it is something.
+  const Json standing = detailedFlight({"--seconds", "12", "--speed", "0"});
+  EXPECT_EQ(standing.at("frames"), 120);
+  EXPECT_GT(standing.at("reached"), 0);
+  EXPECT_GT(standing.at("seen").at("p50"), 0.1);
+  EXPECT_LE(standing.at("seen").at("p50"), 16.0);
+  // Where he flies so fast that nothing can be made he sees no ground, which is not ground without error.
+  const Json hopeless = detailedFlight({"--seconds", "11", "--speed", "100000", "--budget-us", "1"});
+  EXPECT_EQ(hopeless.at("frames"), 60);
+  EXPECT_EQ(hopeless.at("reached"), 0);
+  EXPECT_FALSE(flightJson({"--seconds", "0.1", "--fast"}).contains("pixel_error"));
 }
 
 TEST(FlightCommand, FliesHalfAMinuteWithoutBeingToldHowLong) {
@@ -157,6 +187,15 @@ TEST(FlightCommand, TellsTheHashOfItsFirstHalfMinuteAndItsMemoryAfterTheFirstMin
   EXPECT_EQ(whole.at("hash_at_30_s"), half.at("hash"));
   EXPECT_NE(whole.at("hash"), half.at("hash"));
   EXPECT_FALSE(half.contains("rss_bytes_at_60_s"));
+  EXPECT_FALSE(half.contains("memory"));
+  ASSERT_EQ(whole.at("memory").size(), 1U);
+  const Json& held = whole.at("memory")[0];
+  EXPECT_EQ(held.at("seconds"), 60);
+  EXPECT_EQ(held.at("rss_bytes"), whole.at("rss_bytes_at_60_s"));
+  EXPECT_GT(held.at("engine_bytes"), 1 << 20);
+  EXPECT_LE(held.at("engine_bytes"), whole.at("peak_bytes"));
+  EXPECT_TRUE(held.contains("used_bytes"));  // LongFlight looks at how much
+  EXPECT_TRUE(held.contains("unused_bytes"));
   EXPECT_GT(whole.at("rss_bytes_at_60_s"), whole.at("peak_bytes"));
 }
 
