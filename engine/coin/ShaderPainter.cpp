@@ -72,7 +72,13 @@ void pointAttributes(const std::byte* vertices) {
                         at(vertices, offsetof(SurfaceVertex, height)));
   glVertexAttribPointer(kSlope, 2, GL_SHORT, GL_FALSE, kStride,
                         at(vertices, offsetof(SurfaceVertex, normalX)));
+  glVertexAttribPointer(kCoarserHeight, 1, GL_FLOAT, GL_FALSE, kStride,
+                        at(vertices, offsetof(SurfaceVertex, coarserHeight)));
+  glVertexAttribPointer(kCoarserSlope, 2, GL_SHORT, GL_FALSE, kStride,
+                        at(vertices, offsetof(SurfaceVertex, coarserNormalX)));
 }
+
+constexpr std::array<GLuint, 5> kOfVertices{kCell, kHeight, kSlope, kCoarserHeight, kCoarserSlope};
 
 constexpr double kAnchorStep = 1.0;  // [m]
 
@@ -178,6 +184,11 @@ void ShaderProgram::set(const char* name, const SbVec3f& value) const {
   glUniform3fv(glGetUniformLocation(name_, name), 1, value.getValue());
 }
 
+void ShaderProgram::set(const char* name, std::span<const Morph::Range> ranges) const {
+  static_assert(sizeof(Morph::Range) == 2 * sizeof(float));
+  glUniform2fv(glGetUniformLocation(name_, name), static_cast<GLsizei>(ranges.size()), &ranges.front().error);
+}
+
 void ShaderProgram::set(const char* name, const SbDPMatrix& matrix) const {
   std::array<float, 16> values{};  // Inventor's rows are GL's columns
   for (int row = 0; row < 4; ++row) {
@@ -208,7 +219,8 @@ Result<std::unique_ptr<TerrainPainter>> ShaderPainter::create() {
 }
 
 Result<void> ShaderPainter::link(Programs& programs, const char* depth) {
-  constexpr std::array<const char*, 4> kGround{"cell", "height", "slope", "place"};
+  constexpr std::array<const char*, 6> kGround{"cell",  "height",        "slope",
+                                               "place", "coarserHeight", "coarserSlope"};
   constexpr std::array<const char*, 1> kWater{"cell"};
   const auto make = [depth](ShaderProgram& program, const char* vertex, const char* fragment,
                             std::span<const char* const> attributes) -> Result<void> {
@@ -263,6 +275,7 @@ const ShaderPainter::Programs& ShaderPainter::prepare(const Picture& picture, co
   const SbVec3f eye(picture.eye - picture.placement.position(anchor));
   SbDPMatrix toClip = picture.toEye;
   toClip.multRight(picture.toClip);
+  const SbVec3f detailEye(picture.detailEye - picture.placement.position(anchor));
   const ShaderProgram& ground = picture.tints.empty() ? programs.ground : programs.tinted;
   for (const ShaderProgram* program : {&ground, &programs.water, &programs.deep}) {
     program->use();
@@ -270,6 +283,9 @@ const ShaderPainter::Programs& ShaderPainter::prepare(const Picture& picture, co
     program->set("spacing", static_cast<float>(picture.placement.spacing()));
     program->set("anchorHeight", anchor.height);
     program->set("eye", eye);
+    program->set("tolerance", picture.morph.tolerance());
+    program->set("ranges", picture.morph.ranges());
+    program->set("detailEye", detailEye);
     program->set("phase", inPeriod(anchor.sample.column), inPeriod(anchor.sample.row));
     program->set("sun", picture.sun);
     program->set("viewDistance", picture.viewDistance);
@@ -305,7 +321,7 @@ void ShaderPainter::drawGround(const ShaderProgram& program, const Sample& ancho
   constexpr std::int64_t kExact = std::int64_t{1} << 23;  // leaves room for the mesh itself below 2^24
   glDisable(GL_BLEND);
   program.use();
-  for (const GLuint attribute : {kCell, kHeight, kSlope}) glEnableVertexAttribArray(attribute);
+  for (const GLuint attribute : kOfVertices) glEnableVertexAttribArray(attribute);
   for (std::size_t index = 0; index < meshes.size(); ++index) {
     const Mesh* mesh = meshes[index];
     if (!tints.empty()) program.set("tint", tints[index]);
@@ -318,7 +334,7 @@ void ShaderPainter::drawGround(const ShaderProgram& program, const Sample& ancho
                      static_cast<float>(std::int64_t{1} << mesh->level));
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh->indices->size()), GL_UNSIGNED_INT, start.indices);
   }
-  for (const GLuint attribute : {kCell, kHeight, kSlope}) glDisableVertexAttribArray(attribute);
+  for (const GLuint attribute : kOfVertices) glDisableVertexAttribArray(attribute);
 }
 
 void ShaderPainter::drawFarWater(const Programs& programs) const {

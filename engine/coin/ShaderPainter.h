@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "teren/Result.h"
@@ -23,6 +24,7 @@ class ShaderProgram {
   void set(const char* name, float value) const;
   void set(const char* name, float x, float y) const;
   void set(const char* name, const SbVec3f& value) const;
+  void set(const char* name, std::span<const Morph::Range> ranges) const;
   void set(const char* name, const SbDPMatrix& matrix) const;
   void release();
 

@@ -99,14 +99,15 @@ class SoTerrain::Private {
   teren::FieldEngine source;
   SoTimerSensor timer;
   SbTime lastTick = SbTime::zero();
-  bool fed = false;                 // by setScene()
-  bool fieldsChanged = true;        // since the last attempt to make an engine
-  bool showsThisEngine = false;     // whether the scene is one of source.engine()
-  bool eyeMoved = true;             // since the last update
-  SbVec3d eye{0.0, 0.0, 0.0};       // of the last traversal, in scene coordinates
-  SbVec3d eyePlace{0.0, 0.0, 0.0};  // the same in the world
-  SbVec3d origin{0.0, 0.0, 0.0};    // the last good one, as the next two
-  double budget = 0.004;            // [s]
+  bool fed = false;                  // by setScene()
+  bool fieldsChanged = true;         // since the last attempt to make an engine
+  bool showsThisEngine = false;      // whether the scene is one of source.engine()
+  bool eyeMoved = true;              // since the last update
+  SbVec3d eye{0.0, 0.0, 0.0};        // of the last traversal, in scene coordinates
+  SbVec3d eyePlace{0.0, 0.0, 0.0};   // the same in the world
+  std::optional<SbVec3d> detailEye;  // where it is not the picture's own
+  SbVec3d origin{0.0, 0.0, 0.0};     // the last good one, as the next two
+  double budget = 0.004;             // [s]
   SbColor haze{0.76F, 0.84F, 0.92F};
   float distance = 1500.0F;  // [m] the last good one
   std::string worldFile;     // where the file named by `world` is
@@ -218,6 +219,8 @@ bool SoTerrain::Private::isWet() const {
 teren::Picture SoTerrain::Private::look(SoState* state) const {
   teren::Picture picture{placement()};
   picture.eye = teren::eyePosition(state);
+  picture.detailEye = detailEye.value_or(picture.eye);
+  if (teren::fieldOfView(state)) picture.morph = children.scene()->morph();
   const teren::Sun sun = teren::sunOf(state);
   picture.sun = sun.direction;
   picture.sunlight = sun.light;
@@ -337,6 +340,11 @@ void SoTerrain::setScene(std::shared_ptr<const teren::Scene> scene) {
 
 void SoTerrain::setTint(std::function<SbColor(const teren::Mesh&)> tint) {
   private_->tint = std::move(tint);
+  touch();
+}
+
+void SoTerrain::setDetailEye(const std::optional<SbVec3d>& eye) {
+  private_->detailEye = eye;
   touch();
 }
 

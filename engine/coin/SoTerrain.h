@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include <Inventor/SbColor.h>
 #include <Inventor/fields/SoMFString.h>
@@ -115,6 +116,9 @@ class SoTerrain : public SoNode {
   void setTint(std::function<SbColor(const teren::Mesh&)> tint);
   /// The snapshot shown, never null.
   std::shared_ptr<const teren::Scene> scene() const;
+  /// In scene coordinates, the eye whose distance says how far the ground's vertices have moved to the next
+  /// coarser level (Morph.h), where it is not the camera: to look from aside at what another eye sees.
+  void setDetailEye(const std::optional<SbVec3d>& eye);
 
   /// The node's own engine, made now if a field has changed; nullptr after setScene() or where the fields
   /// have never been good. It dies with the next good change of a field.

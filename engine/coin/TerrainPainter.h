@@ -29,10 +29,12 @@ struct Picture {
   explicit Picture(const ScenePlacement& where) : placement(where) {}
 
   ScenePlacement placement;
-  SbDPMatrix toEye;               ///< from places relative to `eye` (row vectors, as Inventor's matrices)
-  SbDPMatrix toClip;              ///< eye to clip coordinates
-  SbVec3d eye{0.0, 0.0, 0.0};     ///< where it is looked from
-  SbVec3f sun{0.0F, 0.0F, 1.0F};  ///< unit vector towards the sun
+  SbDPMatrix toEye;                  ///< from places relative to `eye` (row vectors, as Inventor's matrices)
+  SbDPMatrix toClip;                 ///< eye to clip coordinates
+  SbVec3d eye{0.0, 0.0, 0.0};        ///< where it is looked from
+  SbVec3d detailEye{0.0, 0.0, 0.0};  ///< the eye whose distance vertices move with
+  Morph morph = {};                  ///< how; the plain painter moves none
+  SbVec3f sun{0.0F, 0.0F, 1.0F};     ///< unit vector towards the sun
   SbColor sunlight{1.0F, 1.0F, 1.0F};  ///< its colour times its intensity
   float viewDistance = 1.0F;           ///< [m] > 0
   bool water = false;                  ///< whether there is any to draw

@@ -5,7 +5,14 @@
 namespace teren {
 
 /// Numbers of the vertex attributes.
-enum GroundAttribute : unsigned { kCell = 0, kHeight = 1, kSlope = 2, kPlace = 3 };
+enum GroundAttribute : unsigned {
+  kCell = 0,
+  kHeight = 1,
+  kSlope = 2,
+  kPlace = 3,
+  kCoarserHeight = 4,
+  kCoarserSlope = 5
+};
 
 inline constexpr char kVersion[] = "#version 120\n";
 
@@ -15,13 +22,16 @@ inline constexpr char kOrdinaryDepth[] = "void writeDepth() {}\n";
 /// Watertight by arithmetic: `cell * place.z + place.xy` is a whole number below 2^24, so it is exact and
 /// equal for the shared vertices of neighbouring meshes, whichever mesh it is counted from; everything after
 /// it is the same computation on the same numbers. Precise by arithmetic: the anchor is near the eye, so no
-/// step loses more than some last digits of a vertex's distance from the eye.
+/// step loses more than some last digits of a vertex's distance from the eye. How near a vertex draws to the
+/// next coarser surface is Morph::share, from attributes that are equal wherever it is shared.
 inline constexpr char kGroundVertexShader[] = R"(#version 120
 invariant gl_Position;
 attribute vec2 cell;     // column and row in the mesh
 attribute float height;  // [m]
 attribute vec2 slope;    // x and y of the unit normal, times 32767
 attribute vec3 place;    // the mesh's origin counted from the anchor, and its step
+attribute float coarserHeight;  // [m] of the next coarser surface
+attribute vec2 coarserSlope;    // likewise; the last four bits of x are the level
 uniform mat4 toClip;         // from positions relative to the eye
 uniform float spacing;       // [m]
 uniform float anchorHeight;  // [m]
@@ -29,6 +39,9 @@ uniform vec3 eye;            // [m] from the anchor
 uniform vec2 phase;          // where in the texture's period of 1024 samples the anchor is
 uniform vec3 sun;            // towards it
 uniform float viewDistance;  // [m]
+uniform float tolerance;     // Morph
+uniform vec2 ranges[16];     // its, by level
+uniform vec3 detailEye;      // [m] from the anchor: whose distance counts
 uniform sampler2D noise;
 varying vec2 samples;
 varying vec4 ground;  // height, gradient, sunlight, haze
@@ -37,16 +50,23 @@ varying vec4 broad;   // noise over hundreds of metres: once a vertex is enough
 void main() {
   vec2 counted = cell * place.z + place.xy;
   samples = counted + phase;
-  vec3 position = vec3(counted * spacing, height - anchorHeight) - eye;
+  vec2 flatPlace = counted * spacing;
+  float level = mod(coarserSlope.x, 16.0);
+  vec2 range = ranges[int(level)];
+  float away = distance(vec3(flatPlace, height - anchorHeight), detailEye);
+  float along = clamp((tolerance * away - range.x) * range.y, 0.0, 1.0);
+  float near_ = along * along;
+  float drawn = mix(height, coarserHeight, near_);
+  vec3 position = vec3(flatPlace, drawn - anchorHeight) - eye;
   gl_Position = toClip * vec4(position, 1.0);
   broad = texture2DLod(noise, samples * (1.0 / 1024.0), 0.0) - 0.5;
 
-  vec2 flat_ = slope * (1.0 / 32767.0);
+  vec2 flat_ = mix(slope, coarserSlope + vec2(8.0 - level, 0.0), near_) * (1.0 / 32767.0);
   float squared = dot(flat_, flat_);
   float up = sqrt(max(1.0 - squared, 1e-4));
   float share = min(length(position.xy) / viewDistance, 1.0);
   float cube = share * share * share;
-  ground = vec4(height, sqrt(squared) / up, max(dot(vec3(flat_, up), sun), 0.0),
+  ground = vec4(drawn, sqrt(squared) / up, max(dot(vec3(flat_, up), sun), 0.0),
                 1.0 - exp(-1.1 * share) * (1.0 - cube * cube));
 }
 )";

@@ -1,6 +1,7 @@
 #include "teren/Engine.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <string>
@@ -117,6 +118,7 @@ struct Engine::State final : Ground {
   std::shared_ptr<const SceneQuery> sceneQuery() const;
 
   void choose() { streamer.choose(objects.motions(), objects.active()); }
+  Morph morph() const;
   void publish();
 };
 
@@ -147,14 +149,27 @@ std::optional<double> Engine::State::height(const Position& position) const {
   return drawn ? drawn : finest;
 }
 
+Morph Engine::State::morph() const {
+  if (!options.view.detail || streamer.nodes().drawnCount() == 0) return {};
+  const DetailSettings& detail = *options.view.detail;
+  std::array<double, Morph::kLevels> errors{};
+  const std::size_t count = std::min(errors.size(), static_cast<std::size_t>(world->topLevel()) + 1);
+  for (std::size_t level = 0; level < count; ++level) {
+    errors[level] = world->nodeErrors().estimate(static_cast<int>(level));
+  }
+  const double lens = lensPixels(static_cast<int>(std::lround(detail.lines)), detail.fieldOfView);
+  return {streamer.pixelError() / lens, std::span(errors).first(count)};
+}
+
 void Engine::State::publish() {
-  if (streamer.nodes().serial() == scene->serial()) return;
+  const Morph next = morph();
+  if (streamer.nodes().serial() == scene->serial() && next == scene->morph()) return;
   if (query->scene() != scene) {  // nobody asks now: it is not to keep what is drawn no more
     query = std::make_shared<const SceneQuery>(
         std::make_shared<const Scene>(0, world->spacing(0), std::vector<std::shared_ptr<const Mesh>>{}),
         world->intervals());
   }
-  scene = streamer.nodes().snapshot();
+  scene = streamer.nodes().snapshot(next);
   sceneTriangles = scene->triangles();
 }
 

@@ -251,13 +251,13 @@ std::optional<double> NodeStore::height(const Position& position, int level) con
   return triangleHeight(std::as_const(*held).view(), x, y);
 }
 
-std::shared_ptr<const Scene> NodeStore::snapshot() const {
+std::shared_ptr<const Scene> NodeStore::snapshot(const Morph& morph) const {
   std::vector<std::shared_ptr<const Mesh>> meshes;
   meshes.reserve(meshes_.size());
   for (const auto& [id, mesh] : meshes_) {
     if (!mesh->indices->empty()) meshes.push_back(mesh);  // with n = 2 all but the corner pieces are empty
   }
-  return std::make_shared<const Scene>(serial_, spacing_, std::move(meshes));
+  return std::make_shared<const Scene>(serial_, spacing_, std::move(meshes), morph);
 }
 
 std::size_t NodeStore::bytes() const noexcept {

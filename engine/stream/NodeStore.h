@@ -119,7 +119,7 @@ class NodeStore {
 
   /// Grows with every change of the drawn set.
   std::uint64_t serial() const noexcept { return serial_; }
-  std::shared_ptr<const Scene> snapshot() const;
+  std::shared_ptr<const Scene> snapshot(const Morph& morph = {}) const;
   /// Of everything held, the store's own bookkeeping included (estimated).
   std::size_t bytes() const noexcept;
   std::size_t meshBytes() const noexcept { return meshBytes_; }

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include <Inventor/nodes/SoDirectionalLight.h>
@@ -18,6 +21,8 @@
 #include "coin/SoTerrain.h"
 #include "tests/coin/OffscreenView.h"
 #include "tests/coin/Stage.h"
+#include "tests/engine/stream/FaultWorld.h"
+#include "tests/engine/stream/NodeErrorsWait.h"
 
 namespace teren {
 namespace {
@@ -380,6 +385,150 @@ TEST_F(Landscape, IsNotDrawnWhereItIsMadeInvisible) {
   stage_.root->insertChild(style, 1);
   EXPECT_EQ(picture().pixel(320, 300), kBackground);
   EXPECT_EQ(terrain_->drawnTriangles(), 0U);
+}
+
+// --- Detail by error: vertices move with distance
+
+/// A hand-made scene whose every vertex draws near to another ground.
+std::shared_ptr<const Scene> drawingNear(const HandMade& from, const HandMade& to, const Morph& morph) {
+  const auto own = makeScene(from), other = makeScene(to);
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (std::size_t k = 0; k < own->meshes().size(); ++k) {
+    auto mesh = std::make_shared<Mesh>(*own->meshes()[k]);
+    for (std::size_t number = 0; number < mesh->vertices.size(); ++number) {
+      const SurfaceVertex& target = other->meshes()[k]->vertices[number];
+      mesh->vertices[number].setCoarser(3, target.height, target.normalX, target.normalY);
+      mesh->minHeight = std::min(mesh->minHeight, target.height);
+      mesh->maxHeight = std::max(mesh->maxHeight, target.height);
+    }
+    meshes.push_back(std::move(mesh));
+  }
+  return std::make_shared<const Scene>(1, own->spacing(), std::move(meshes), morph);
+}
+
+/// Pixels where two pictures differ by more than so many grey levels.
+int differing(const QImage& a, const QImage& b, int levels) {
+  int count = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
+      count += std::max({std::abs(qRed(p) - qRed(q)), std::abs(qGreen(p) - qGreen(q)),
+                         std::abs(qBlue(p) - qBlue(q))}) > levels;
+    }
+  }
+  return count;
+}
+
+TEST(Picture, OfVerticesThatDrawNearIsTheirOwnUntilTheErrorAllowsMoreAndThenTheCoarserSurface) {
+  const Stage stage;
+  OffscreenView view(320, 200);
+  stage.terrain->waterLevel = -1e6F;
+  stage.terrain->viewDistance = 2000.0F;
+  const HandMade rough{.side = 8, .intervals = 32, .spacing = 1.0, .height = hill};
+  const HandMade smooth{.side = 8, .intervals = 32, .spacing = 1.0, .height = [](double x, double y) {
+                          return 20.0 + 0.05 * x - 0.02 * y;
+                        }};
+  stage.look(SbVec3f(128.0F, -60.0F, 90.0F), 0.0, -30.0);
+  const auto picture = [&](const std::shared_ptr<const Scene>& scene) {
+    stage.terrain->setScene(std::make_shared<const Scene>());
+    stage.terrain->setScene(scene);
+    return view.picture(stage.root, kMagenta);
+  };
+  const std::vector<double> errors{0.0, 0.0, 0.0, 1.0, 2.0};
+  const QImage own = picture(makeScene(rough)), coarser = picture(makeScene(smooth));
+  EXPECT_GT(differing(own, coarser, 4), 5000);
+  // All of it lies 50 to 500 m away. It begins to move where 1.25 m may be wrong, and has arrived at 2 m.
+  EXPECT_EQ(differing(picture(drawingNear(rough, smooth, Morph())), own, 0), 0);
+  EXPECT_EQ(differing(picture(drawingNear(rough, smooth, Morph(0.001, errors))), own, 0), 0);
+  EXPECT_LT(differing(picture(drawingNear(rough, smooth, Morph(0.1, errors))), coarser, 2), 50);
+  const QImage between = picture(drawingNear(rough, smooth, Morph(0.01, errors)));
+  EXPECT_GT(differing(between, own, 4), 1000);
+  EXPECT_GT(differing(between, coarser, 4), 1000);
+  const WithoutShaders plain;
+  OffscreenView other(320, 200);
+  const QImage unmoved = other.picture(stage.root, kMagenta);
+  picture(makeScene(rough));
+  EXPECT_EQ(differing(other.picture(stage.root, kMagenta), unmoved, 0), 0) << "without shaders nothing moves";
+}
+
+TEST(DetailByError, HasNoCracksHoweverFarItsVerticesHaveMoved) {
+  SoNode* root = readScene("#Inventor V2.1 ascii\nSoTerrain { seed \"42\" pixelError 8 viewDistance 3000 }");
+  const Stage stage;
+  auto* terrain = static_cast<SoTerrain*>(static_cast<SoSeparator*>(root)->getChild(0));
+  stage.root->replaceChild(stage.terrain, terrain);
+  terrain->waterLevel = -1e6F;
+  terrain->settle();
+  OffscreenView view(640, 360);
+  RandomSequence random(7);
+  std::set<int> levels;
+  for (const auto& mesh : terrain->scene()->meshes()) levels.insert(mesh->nodeLevel);
+  EXPECT_GE(levels.size(), 4U);
+  EXPECT_GT(terrain->scene()->morph().tolerance(), 0.0F);
+  const double ground = *terrain->engine()->drawnHeight(Position{});
+  QImage before;
+  for (int turn = 0; turn < 20; ++turn) {
+    const auto x = static_cast<float>(1000.0 * unit(random) - 500.0);
+    const auto y = static_cast<float>(1000.0 * unit(random) - 500.0);
+    stage.look(SbVec3f(x, y, static_cast<float>(ground + 700.0)), 360.0 * unit(random),
+               -90.0 + 30.0 * unit(random));
+    terrain->setDetailEye(SbVec3d(2000.0 * unit(random) - 1000.0, 2000.0 * unit(random) - 1000.0,
+                                  ground + 300.0 * unit(random)));
+    const QImage moved = view.picture(stage.root, kMagenta);
+    EXPECT_EQ(backgroundPixels(moved), 0) << "at " << x << ", " << y;
+    terrain->setDetailEye(std::nullopt);
+    before = view.picture(stage.root, kMagenta);
+    EXPECT_EQ(backgroundPixels(before), 0) << "at " << x << ", " << y;
+  }
+  root->unref();
+}
+
+TEST(DetailByError, ShowsHardlyThatNodesChangePlaces) {
+  const auto world = test::faultWorld(3, 17, {1024.0, 64.0}, 20);
+  class Puppet final : public Object {
+   public:
+    void update(double, const Ground&) override {}
+    Motion motion() const override { return place; }
+    Motion place;
+  };
+  auto made = Engine::create(
+      world, {.view = {.detail = DetailSettings{.pixelError = 12.0, .distance = 3000.0, .lines = 360.0}}});
+  ASSERT_TRUE(made.ok());
+  Engine& engine = **made;
+  auto& puppet = static_cast<Puppet&>(engine.add(std::make_unique<Puppet>()));
+  const auto settleAt = [&](double north) {
+    puppet.place.position = *Position::fromMetres(10.0, north, world->pitch());
+    puppet.place.height = 150.0;
+    engine.settle();
+    return engine.scene();
+  };
+  settleAt(0.0);
+  ASSERT_TRUE(test::measureNodeErrors(engine));
+  const Stage stage;
+  stage.camera->heightAngle = 0.785F;
+  stage.terrain->waterLevel = -1e6F;
+  stage.terrain->viewDistance = 3000.0F;
+  OffscreenView view(640, 360);
+  const auto picture = [&](const Scene& scene, bool moving) {
+    std::vector<std::shared_ptr<const Mesh>> meshes(scene.meshes().begin(), scene.meshes().end());
+    stage.terrain->setScene(std::make_shared<const Scene>());
+    stage.terrain->setScene(std::make_shared<const Scene>(scene.serial(), scene.spacing(), std::move(meshes),
+                                                          moving ? scene.morph() : Morph()));
+    return view.picture(stage.root, kMagenta);
+  };
+  auto before = settleAt(0.0);
+  int moving = 0, still = 0, exchanges = 0;
+  for (double north = 16.0; north <= 320.0; north += 16.0) {
+    const auto after = settleAt(north);
+    if (after->serial() == before->serial()) continue;
+    ++exchanges;
+    stage.look(SbVec3f(10.0F, static_cast<float>(north), 150.0F), 0.0, -12.0);
+    moving += differing(picture(*before, true), picture(*after, true), 6);
+    still += differing(picture(*before, false), picture(*after, false), 6);
+    before = after;
+  }
+  EXPECT_GT(exchanges, 5);
+  EXPECT_GT(still, 1000);
+  EXPECT_LT(moving, still / 3) << "pixels that jump, and without the way to the coarser surface";
 }
 
 }  // namespace

@@ -1,0 +1,231 @@
+// Vertices that draw near to the next coarser level: laws 2 and 7 as the vertex shader keeps them, and what
+// is seen when nodes change places.
+#include "teren/Morph.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "teren/Engine.h"
+#include "teren/Hash.h"
+#include "teren/PixelError.h"
+
+#include "tests/engine/stream/FaultWorld.h"
+#include "tests/engine/stream/NodeErrorsWait.h"
+
+namespace teren {
+namespace {
+
+using Place = std::pair<std::int64_t, std::int64_t>;  // level-0 samples
+
+/// [0, 1)
+double unit(RandomSequence& random) {
+  return static_cast<double>(random.nextBits(53)) * 0x1p-53;
+}
+
+/// An eye in metres from the world's middle.
+struct Point {
+  double east = 0.0, north = 0.0, height = 0.0;
+};
+
+Place placeOf(const Mesh& mesh, const SurfaceVertex& vertex) {
+  const std::int64_t stride = std::int64_t{1} << mesh.level;
+  return {mesh.originColumn + vertex.column * stride, mesh.originRow + vertex.row * stride};
+}
+
+/// As the shader computes it, from the sample next to the eye.
+float distanceTo(const Scene& scene, const Point& eye, const Place& place, float height) {
+  const auto spacing = static_cast<float>(scene.spacing());
+  const auto column = static_cast<std::int64_t>(std::floor(eye.east / scene.spacing()));
+  const auto row = static_cast<std::int64_t>(std::floor(eye.north / scene.spacing()));
+  const auto east = static_cast<float>(eye.east - static_cast<double>(column) * scene.spacing());
+  const auto north = static_cast<float>(eye.north - static_cast<double>(row) * scene.spacing());
+  const float x = static_cast<float>(place.first - column) * spacing - east;
+  const float y = static_cast<float>(place.second - row) * spacing - north;
+  const float z = height - static_cast<float>(eye.height);
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+float drawnHeight(const Scene& scene, const Point& eye, const Mesh& mesh, const SurfaceVertex& vertex) {
+  return scene.morph().height(vertex, distanceTo(scene, eye, placeOf(mesh, vertex), vertex.height));
+}
+
+/// The scene as an eye sees it, with every vertex where it is drawn.
+std::shared_ptr<const Scene> seenFrom(const Scene& scene, const Point& eye) {
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (const auto& mesh : scene.meshes()) {
+    auto moved = std::make_shared<Mesh>(*mesh);
+    for (SurfaceVertex& vertex : moved->vertices) {
+      vertex.coarserHeight = vertex.height = drawnHeight(scene, eye, *mesh, vertex);
+    }
+    meshes.push_back(std::move(moved));
+  }
+  return std::make_shared<const Scene>(scene.serial(), scene.spacing(), std::move(meshes));
+}
+
+class Puppet final : public Object {
+ public:
+  void update(double, const Ground&) override {}
+  Motion motion() const override { return place; }
+  Motion place;
+};
+
+struct Flight {
+  explicit Flight(double pixelError)
+      : detail{.pixelError = pixelError, .distance = 3000.0},
+        world(test::faultWorld(3, 17, {1024.0, 64.0}, 20)) {
+    auto made = Engine::create(world, {.view = {.detail = detail}});
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    engine = std::move(*made);
+    puppet = static_cast<Puppet*>(&engine->add(std::make_unique<Puppet>()));
+  }
+  void settleAt(const Point& eye) {
+    puppet->place.position = *Position::fromMetres(eye.east, eye.north, world->pitch());
+    puppet->place.height = eye.height;
+    engine->settle();
+  }
+  double lens() const { return lensPixels(static_cast<int>(detail.lines), detail.fieldOfView); }
+
+  DetailSettings detail;
+  std::shared_ptr<const World> world;
+  std::unique_ptr<Engine> engine;
+  Puppet* puppet;
+};
+
+TEST(Morph, GoesOnlySoFarThatTheErrorStaysBelowWhatTheDistanceAllows) {
+  const std::vector<double> errors{0.0, 0.3, 0.9, 1.1, 4.0, 3.5, 9.0};  // the promises may be out of order
+  const Morph morph(0.002, errors);
+  for (int level = 0; level < 6; ++level) {
+    const auto own = static_cast<float>(errors[static_cast<std::size_t>(level)]);
+    const float next = std::max(static_cast<float>(errors[static_cast<std::size_t>(level) + 1]), own);
+    float before = 0.0F;
+    for (float distance = 0.0F; distance < 6000.0F; distance += 7.0F) {
+      const float allowed = 0.002F * distance, t = morph.share(level, distance);
+      ASSERT_GE(t, before) << "level " << level << " at " << distance;
+      before = t;
+      ASSERT_TRUE(allowed > own * 0.9999F || t == 0.0F);
+      ASSERT_TRUE(allowed < next * 1.0001F + 1e-5F || t == 1.0F);
+      ASSERT_LE(t * next + (1.0F - t) * own, std::max(allowed, own) * 1.0001F + 1e-6F);
+    }
+  }
+  EXPECT_EQ(morph.share(6, 1e6F), 0.0F);
+  EXPECT_EQ(morph.share(SurfaceVertex::kFixed, 1e6F), 0.0F);
+  EXPECT_EQ(Morph().share(0, 1e6F), 0.0F);
+  EXPECT_EQ(Morph(0.0, errors).share(3, 1e6F), 0.0F);
+}
+
+TEST(Morph, MovesNothingInAViewOfOneLevel) {
+  const auto world = test::faultWorld(3, 17, {1024.0, 64.0}, 20);
+  auto engine = Engine::create(world, {.view = {.level = 1, .radius = 2}});
+  ASSERT_TRUE(engine.ok());
+  (*engine)->add(std::make_unique<Puppet>());
+  (*engine)->settle();
+  EXPECT_EQ((*engine)->scene()->morph(), Morph());
+  for (const auto& mesh : (*engine)->scene()->meshes()) {
+    for (const SurfaceVertex& vertex : mesh->vertices) {
+      ASSERT_EQ(vertex.level(), SurfaceVertex::kFixed);
+      ASSERT_EQ(vertex.coarserHeight, vertex.height);
+    }
+  }
+}
+
+TEST(Morph, LeavesOneSurfaceWithoutCracksFromWhereverItIsSeen) {
+  Flight flight(12.0);
+  flight.settleAt({10.0, 20.0, 60.0});
+  ASSERT_TRUE(test::measureNodeErrors(*flight.engine));
+  flight.settleAt({12.0, 20.0, 60.0});
+  const auto scene = flight.engine->scene();
+  RandomSequence random(5);
+  std::size_t moving = 0, between = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Point eye{4000.0 * unit(random) - 2000.0, 4000.0 * unit(random) - 2000.0, 400.0 * unit(random)};
+    std::map<Place, std::pair<float, int>> drawn;
+    for (const auto& mesh : scene->meshes()) {
+      for (const SurfaceVertex& vertex : mesh->vertices) {
+        const Place place = placeOf(*mesh, vertex);
+        const float height = drawnHeight(*scene, eye, *mesh, vertex);
+        ASSERT_GE(height, mesh->minHeight - 1e-3F);
+        ASSERT_LE(height, mesh->maxHeight + 1e-3F);
+        const auto [other, isNew] = drawn.emplace(place, std::pair(height, mesh->nodeLevel));
+        ASSERT_TRUE(isNew ||
+                    std::bit_cast<std::uint32_t>(other->second.first) == std::bit_cast<std::uint32_t>(height))
+            << "at " << place.first << ", " << place.second << " seen from " << eye.east << ", " << eye.north;
+        const bool moves = height != vertex.height && height != vertex.coarserHeight;
+        moving += moves ? 1 : 0;
+        between += moves && !isNew && other->second.second != mesh->nodeLevel ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(moving, 1000U);
+  EXPECT_GT(between, 100U) << "vertices between levels";
+}
+
+/// [px] by how much two scenes differ at the vertices of the first that are not in both, as an eye sees them.
+std::vector<double> differences(const Scene& from, const Scene& to, const Point& eye, const Flight& flight) {
+  const SceneQuery query(std::make_shared<const Scene>(to), flight.world->intervals());
+  std::vector<double> pixels;
+  for (const auto& mesh : from.meshes()) {
+    for (const SurfaceVertex& vertex : mesh->vertices) {
+      const Place place = placeOf(*mesh, vertex);
+      const Position position =
+          *Position::fromMetres(static_cast<double>(place.first) * from.spacing(),
+                                static_cast<double>(place.second) * from.spacing(), flight.world->pitch());
+      DrawnPoint point;
+      query.points({&position, 1}, {&point, 1});
+      if (!point.there) continue;
+      const double gap = std::fabs(point.height - static_cast<double>(vertex.height));
+      const auto distance = static_cast<double>(distanceTo(from, eye, place, vertex.height));
+      if (gap > 0.0) pixels.push_back(gap / distance * flight.lens());
+    }
+  }
+  return pixels;
+}
+
+TEST(Morph, LetsNothingJumpByMoreThanThePixelErrorWhenNodesChangePlaces) {
+  constexpr double kWanted = 12.0;
+  Flight flight(kWanted);
+  Point eye{10.0, 20.0, 60.0};
+  flight.settleAt(eye);
+  ASSERT_TRUE(test::measureNodeErrors(*flight.engine));
+  flight.settleAt(eye);
+  std::vector<double> jumps, without;
+  auto before = flight.engine->scene();
+  for (int step = 0; step < 60; ++step) {
+    eye.east += step < 30 ? 20.0 : -20.0;  // there and back: splits and merges on both sides
+    eye.north += 3.0;
+    flight.settleAt(eye);
+    const auto after = flight.engine->scene();
+    if (after->serial() == before->serial()) continue;
+    const auto compare = [&](const Scene& a, const Scene& b, std::vector<double>& all) {
+      for (const auto& pixels : {differences(a, b, eye, flight), differences(b, a, eye, flight)}) {
+        all.insert(all.end(), pixels.begin(), pixels.end());
+      }
+    };
+    compare(*seenFrom(*before, eye), *seenFrom(*after, eye), jumps);
+    compare(*before, *after, without);
+    before = after;
+  }
+  ASSERT_GT(without.size(), 1000U);
+  ASSERT_FALSE(jumps.empty());
+  const auto most = [](const std::vector<double>& all) { return *std::max_element(all.begin(), all.end()); };
+  const auto square = [](const std::vector<double>& all) {
+    double sum = 0.0;
+    for (const double value : all) sum += value * value;
+    return sum;
+  };
+  const double mean = std::sqrt(square(jumps) / static_cast<double>(without.size()));
+  const double meanWithout = std::sqrt(square(without) / static_cast<double>(without.size()));
+  EXPECT_LE(most(jumps), kWanted);
+  EXPECT_GT(most(without), 1.3 * most(jumps));
+  EXPECT_LT(mean, 0.25 * meanWithout);
+}
+
+}  // namespace
+}  // namespace teren
