@@ -141,7 +141,7 @@ void PlainPainter::draw(const Picture& picture, std::span<const Mesh* const> mes
   glDisable(GL_BLEND);
   setUpFog(picture);
   drawGround(picture, meshes);
-  if (picture.water) drawWater(picture, SbVec3f(-away), picture.waterLevel - anchor_.height);
+  if (!picture.wet.empty()) drawWater(picture, SbVec3f(-away), picture.waterLevel - anchor_.height);
   glMatrixMode(GL_PROJECTION);
   glPopMatrix();
   glMatrixMode(GL_MODELVIEW);

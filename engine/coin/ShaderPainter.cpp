@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <numbers>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -90,61 +91,8 @@ float inPeriod(std::int64_t sample) {
 }
 
 const SbVec3f kDeepWater(0.05F, 0.16F, 0.22F);
-constexpr int kWaterRings = 32;
-constexpr int kWaterSectors = 64;
-constexpr int kClearRings = 14;  // the clear ones: see ringRadius() and kClearShare
-
-/// Share of the view distance; denser inside.
-constexpr float ringRadius(int ring) {
-  const float share = static_cast<float>(ring) / kWaterRings;
-  return share * share;
-}
-static_assert(ringRadius(kClearRings) == kClearShare);
-
-/// How many indices the rings before this one have: the innermost has one triangle a sector, the others two.
-constexpr int discIndices(int rings) {
-  return rings == 0 ? 0 : 3 * kWaterSectors * (2 * rings - 1);
-}
-
-/// x and y of the disc's vertices: the centre, then ring by ring.
-std::vector<float> discVertices() {
-  std::vector<float> vertices{0.0F, 0.0F};
-  for (int ring = 1; ring <= kWaterRings; ++ring) {
-    const auto radius = static_cast<double>(ringRadius(ring));
-    for (int sector = 0; sector < kWaterSectors; ++sector) {
-      const double angle = 2.0 * std::numbers::pi * sector / kWaterSectors;
-      vertices.push_back(static_cast<float>(radius * std::cos(angle)));
-      vertices.push_back(static_cast<float>(radius * std::sin(angle)));
-    }
-  }
-  return vertices;
-}
-
-std::vector<std::uint16_t> discTriangles() {
-  const auto vertex = [](int ring, int sector) {
-    return static_cast<std::uint16_t>(ring == 0 ? 0
-                                                : 1 + (ring - 1) * kWaterSectors + sector % kWaterSectors);
-  };
-  std::vector<std::uint16_t> triangles;
-  for (int ring = 0; ring < kWaterRings; ++ring) {
-    for (int sector = 0; sector < kWaterSectors; ++sector) {
-      const std::uint16_t outer = vertex(ring + 1, sector);
-      const std::uint16_t nextOuter = vertex(ring + 1, sector + 1);
-      triangles.insert(triangles.end(), {vertex(ring, sector), outer, nextOuter});
-      if (ring > 0)
-        triangles.insert(triangles.end(), {vertex(ring, sector), nextOuter, vertex(ring, sector + 1)});
-    }
-  }
-  return triangles;
-}
-
-template <class T>
-std::size_t uploadOnce(GLenum target, unsigned& name, const std::vector<T>& data) {
-  glGenBuffers(1, &name);
-  glBindBuffer(target, name);
-  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STATIC_DRAW);
-  return data.size() * sizeof(T);
-}
+constexpr int kClearRings = 14;  // of the water's disc: see kClearShare
+static_assert(WaterCells::radius(kClearRings) == kClearShare);
 
 }  // namespace
 
@@ -206,50 +154,77 @@ void ShaderProgram::release() {
 
 Result<std::unique_ptr<TerrainPainter>> ShaderPainter::create() {
   std::unique_ptr<ShaderPainter> painter(new ShaderPainter);
-  for (const Result<void>& linked :
-       {link(painter->ordinary_, kOrdinaryDepth), link(painter->logarithmic_, kLogarithmicDepthShader)}) {
-    if (linked) continue;
+  if (const Result<void> linked = painter->link(); !linked) {
     painter->release();
     return linked.error();
   }
   const SavedState saved;
   painter->makeNoise();
-  painter->makeWater();
+  painter->water_.make();
   return std::unique_ptr<TerrainPainter>(std::move(painter));
 }
 
-Result<void> ShaderPainter::link(Programs& programs, const char* depth) {
-  constexpr std::array<const char*, 6> kGround{"cell",  "height",        "slope",
-                                               "place", "coarserHeight", "coarserSlope"};
-  constexpr std::array<const char*, 1> kWater{"cell"};
-  const auto make = [depth](ShaderProgram& program, const char* vertex, const char* fragment,
-                            std::span<const char* const> attributes) -> Result<void> {
-    const std::array<const char*, 3> pieces{kVersion, depth, fragment};
-    const Result<ShaderProgram> linked = ShaderProgram::link(vertex, pieces, attributes);
+Result<void> ShaderPainter::link() {
+  struct Depth {
+    const char *ofVertices, *ofFragments;
+  };
+  constexpr std::array<Depth, kDepths> kDepth{{{kProjectedDepth, kOrdinaryDepth},
+                                               {kProjectedDepth, kLogarithmicDepthShader},
+                                               {kDepthOfVertices, kOrdinaryDepth}}};
+  struct Kind {
+    const char *detail, *height, *fragment;
+  };
+  constexpr std::array<Kind, kGrounds> kGround{{{kDetail, "", kGroundFragmentShader},
+                                                {kDetail, kHighOrLow, kGroundFragmentShader},
+                                                {kNoDetail, kHighOrLow, kGroundFragmentShader},
+                                                {kNoDetail, "", kTintedFragmentShader}}};
+  constexpr std::array<Kind, kWaters> kWater{{{kDetail, "", kWaterFragmentShader},
+                                              {kNoDetail, "", kWaterFragmentShader},
+                                              {kNoDetail, "", kDeepFragmentShader}}};
+  constexpr std::array<const char*, 6> kGroundAttributes{"cell",  "height",        "slope",
+                                                         "place", "coarserHeight", "coarserSlope"};
+  const auto make = [](ShaderProgram& program, const char* vertex, const Depth& depth, const Kind& kind,
+                       std::span<const char* const> attributes) -> Result<void> {
+    const std::string placed = std::string(kVersion) + depth.ofVertices + vertex;
+    const std::array<const char*, 5> pieces{kVersion, depth.ofFragments, kind.detail, kind.height,
+                                            kind.fragment};
+    const Result<ShaderProgram> linked = ShaderProgram::link(placed.c_str(), pieces, attributes);
     if (!linked) return linked.error();
     program = *linked;
     return {};
   };
-  if (Result<void> made = make(programs.ground, kGroundVertexShader, kGroundFragmentShader, kGround); !made)
-    return made;
-  if (Result<void> made = make(programs.tinted, kGroundVertexShader, kTintedFragmentShader, kGround); !made)
-    return made;
-  if (Result<void> made = make(programs.water, kWaterVertexShader, kWaterFragmentShader, kWater); !made)
-    return made;
-  return make(programs.deep, kWaterVertexShader, kDeepFragmentShader, kWater);
+  for (std::size_t depth = 0; depth < kDepths; ++depth) {
+    Programs& programs = programs_[depth];
+    for (std::size_t kind = 0; kind < kGrounds; ++kind) {
+      if (Result<void> made = make(programs.ground[kind], kGroundVertexShader, kDepth[depth], kGround[kind],
+                                   kGroundAttributes);
+          !made)
+        return made;
+    }
+    if (depth == kByVertex) continue;  // the water's triangles are too large
+    for (std::size_t kind = 0; kind < kWaters; ++kind) {
+      if (Result<void> made = make(programs.water[kind], kWaterVertexShader, kDepth[depth], kWater[kind],
+                                   std::span(kGroundAttributes).first(1));
+          !made)
+        return made;
+    }
+  }
+  return {};
+}
+
+void ShaderPainter::forget(const Mesh& mesh) {
+  buffers_.forget(mesh);
+  depthByVertex_.forget(mesh);
 }
 
 void ShaderPainter::release() {
   buffers_.clear();
-  for (Programs* programs : {&ordinary_, &logarithmic_}) {
-    for (ShaderProgram* program : {&programs->ground, &programs->tinted, &programs->water, &programs->deep}) {
-      program->release();
-    }
+  for (Programs& programs : programs_) {
+    for (ShaderProgram& program : programs.ground) program.release();
+    for (ShaderProgram& program : programs.water) program.release();
   }
   glDeleteTextures(1, &noise_);
-  glDeleteBuffers(1, &waterVertices_);
-  glDeleteBuffers(1, &waterIndices_);
-  waterBytes_ = 0;
+  water_.release();
 }
 
 void ShaderPainter::makeNoise() {
@@ -264,70 +239,87 @@ void ShaderPainter::makeNoise() {
                GL_UNSIGNED_BYTE, texels.data());
 }
 
-void ShaderPainter::makeWater() {
-  waterBytes_ = uploadOnce(GL_ARRAY_BUFFER, waterVertices_, discVertices());
-  waterBytes_ += uploadOnce(GL_ELEMENT_ARRAY_BUFFER, waterIndices_, discTriangles());
-}
-
-/// The programs for a picture, with all that is the same for the whole of it.
-const ShaderPainter::Programs& ShaderPainter::prepare(const Picture& picture, const Anchor& anchor) const {
-  const Programs& programs = picture.depthScale ? logarithmic_ : ordinary_;
-  const SbVec3f eye(picture.eye - picture.placement.position(anchor));
-  SbDPMatrix toClip = picture.toEye;
-  toClip.multRight(picture.toClip);
-  const SbVec3f detailEye(picture.detailEye - picture.placement.position(anchor));
-  const ShaderProgram& ground = picture.tints.empty() ? programs.ground : programs.tinted;
-  for (const ShaderProgram* program : {&ground, &programs.water, &programs.deep}) {
-    program->use();
-    program->set("toClip", toClip);
-    program->set("spacing", static_cast<float>(picture.placement.spacing()));
-    program->set("anchorHeight", anchor.height);
-    program->set("eye", eye);
-    program->set("tolerance", picture.morph.tolerance());
-    program->set("ranges", picture.morph.ranges());
-    program->set("detailEye", detailEye);
-    program->set("phase", inPeriod(anchor.sample.column), inPeriod(anchor.sample.row));
-    program->set("sun", picture.sun);
-    program->set("viewDistance", picture.viewDistance);
-    program->set("waterLevel", picture.waterLevel);
-    program->set("haze", picture.haze);
-    program->set("sunlight", picture.sunlight);
-    program->set("deep", kDeepWater);
-    program->set("clearShare", kClearShare);
-    if (picture.depthScale) program->set("depthScale", (*picture.depthScale)[0], (*picture.depthScale)[1]);
-  }
-  return programs;
+/// Tells a program all that is the same for the whole of a picture.
+void ShaderPainter::prepare(const ShaderProgram& program, const Picture& picture, const Anchor& anchor,
+                            const SbDPMatrix& toClip) {
+  program.use();
+  program.set("toClip", toClip);
+  program.set("spacing", static_cast<float>(picture.placement.spacing()));
+  program.set("anchorHeight", anchor.height);
+  program.set("eye", SbVec3f(picture.eye - picture.placement.position(anchor)));
+  program.set("tolerance", picture.morph.tolerance());
+  program.set("ranges", picture.morph.ranges());
+  program.set("detailEye", SbVec3f(picture.detailEye - picture.placement.position(anchor)));
+  program.set("phase", inPeriod(anchor.sample.column), inPeriod(anchor.sample.row));
+  program.set("sun", picture.sun);
+  program.set("viewDistance", picture.viewDistance);
+  program.set("detailEnds", static_cast<float>(detailEnds(picture)));
+  program.set("waterLevel", picture.waterLevel);
+  program.set("haze", picture.haze);
+  program.set("sunlight", picture.sunlight);
+  program.set("deep", kDeepWater);
+  program.set("clearShare", kClearShare);
+  if (picture.depthScale) program.set("depthScale", (*picture.depthScale)[0], (*picture.depthScale)[1]);
 }
 
 void ShaderPainter::draw(const Picture& picture, std::span<const Mesh* const> meshes) {
   const SavedState saved;
   buffers_.frame();
   const Anchor anchor = picture.placement.anchorNear(picture.eye, kAnchorStep);
-  const Programs& programs = prepare(picture, anchor);
+  SbDPMatrix toClip = picture.toEye;
+  toClip.multRight(picture.toClip);
+  for (const std::size_t depth : {kOrdinary, kByFragment, kByVertex}) {
+    if ((depth == kOrdinary) == picture.depthScale.has_value()) continue;
+    for (std::size_t kind = 0; kind < kGrounds; ++kind) {
+      if ((kind == kTinted) != picture.tints.empty())
+        prepare(programs_[depth].ground[kind], picture, anchor, toClip);
+    }
+    if (depth == kByVertex || picture.wet.empty()) continue;
+    for (const ShaderProgram& program : programs_[depth].water) prepare(program, picture, anchor, toClip);
+  }
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, noise_);
-  if (picture.water) drawFarWater(programs);
+  findWater(picture);
+  if (!picture.wet.empty()) drawFarWater(picture);
   // Backs of the ground are seen only from below; a mirroring model matrix turns fronts into backs.
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(picture.toEye.det3() < 0.0 ? GL_CW : GL_CCW);
-  drawGround(picture.tints.empty() ? programs.ground : programs.tinted, anchor.sample, meshes, picture.tints);
+  drawGround(picture, anchor.sample, toClip, meshes);
   glDisable(GL_CULL_FACE);
-  if (picture.water) drawClearWater(programs.water);
+  if (!picture.wet.empty()) drawClearWater(picture);
 }
 
-void ShaderPainter::drawGround(const ShaderProgram& program, const Sample& anchor,
-                               std::span<const Mesh* const> meshes, std::span<const SbColor> tints) {
+/// The program that draws a mesh.
+const ShaderProgram& ShaderPainter::programFor(const Mesh& mesh, const Picture& picture,
+                                               const SbDPMatrix& toClip) {
+  std::size_t depth = kOrdinary;
+  if (picture.depthScale)
+    depth = depthByVertex_.does(mesh, picture.placement, picture.eye, toClip) ? kByVertex : kByFragment;
+  if (!picture.tints.empty()) return programs_[depth].ground[kTinted];
+  const SbVec3f eye(picture.eye);
+  const float away = (picture.placement.box(mesh).getClosestPoint(eye) - eye).length();
+  const bool plain = mesh.maxHeight <= kSnowAbove && mesh.minHeight >= picture.waterLevel + kShoreBelow;
+  return programs_[depth].ground[static_cast<double>(away) >= detailEnds(picture) ? kDistant
+                                 : plain                                          ? kPlain
+                                                                                  : kHighOrLowGround];
+}
+
+void ShaderPainter::drawGround(const Picture& picture, const Sample& anchor, const SbDPMatrix& toClip,
+                               std::span<const Mesh* const> meshes) {
   constexpr std::int64_t kExact = std::int64_t{1} << 23;  // leaves room for the mesh itself below 2^24
   glDisable(GL_BLEND);
-  program.use();
   for (const GLuint attribute : kOfVertices) glEnableVertexAttribArray(attribute);
+  const ShaderProgram* last = nullptr;
   for (std::size_t index = 0; index < meshes.size(); ++index) {
     const Mesh* mesh = meshes[index];
-    if (!tints.empty()) program.set("tint", tints[index]);
     const std::int64_t column = mesh->originColumn - anchor.column;
     const std::int64_t row = mesh->originRow - anchor.row;
     if (std::abs(column) > kExact || std::abs(row) > kExact) continue;  // thousands of kilometres away
+    const ShaderProgram* program = &programFor(*mesh, picture, toClip);
+    if (program != last) program->use();
+    last = program;
+    if (!picture.tints.empty()) program->set("tint", picture.tints[index]);
     const TerrainBuffers::Start start = buffers_.bind(*mesh);
     pointAttributes(start.vertices);
     glVertexAttrib3f(kPlace, static_cast<float>(column), static_cast<float>(row),
@@ -337,33 +329,41 @@ void ShaderPainter::drawGround(const ShaderProgram& program, const Sample& ancho
   for (const GLuint attribute : kOfVertices) glDisableVertexAttribArray(attribute);
 }
 
-void ShaderPainter::drawFarWater(const Programs& programs) const {
+void ShaderPainter::findWater(const Picture& picture) {
+  cells_.clear();
+  const auto reach = static_cast<double>(picture.viewDistance);
+  for (const SbBox2f& wet : picture.wet) {
+    const SbVec2f low = wet.getMin(), high = wet.getMax();
+    cells_.mark((static_cast<double>(low[0]) - picture.eye[0]) / reach,
+                (static_cast<double>(low[1]) - picture.eye[1]) / reach,
+                (static_cast<double>(high[0]) - picture.eye[0]) / reach,
+                (static_cast<double>(high[1]) - picture.eye[1]) / reach);
+  }
+}
+
+void ShaderPainter::drawFarWater(const Picture& picture) {
+  const std::span<const ShaderProgram, kWaters> water =
+      programs_[picture.depthScale ? kByFragment : kOrdinary].water;
   glDisable(GL_BLEND);
-  programs.water.use();
-  drawRings(kClearRings, kWaterRings - kClearRings);
+  const bool smooth = static_cast<double>(kClearShare * picture.viewDistance) >= detailEnds(picture);
+  water[smooth ? kSmoothWater : kRippledWater].use();
+  water_.draw(cells_, kClearRings, WaterCells::kRings - kClearRings, kCell);
   glPushAttrib(GL_DEPTH_BUFFER_BIT);
   glDepthMask(GL_FALSE);
-  programs.deep.use();
-  drawRings(0, kClearRings);
+  water[kDeepWaterBelow].use();
+  water_.draw(cells_, 0, kClearRings, kCell);
   glPopAttrib();
 }
 
-void ShaderPainter::drawClearWater(const ShaderProgram& program) const {
+void ShaderPainter::drawClearWater(const Picture& picture) {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  program.use();
-  drawRings(0, kClearRings);
+  programs_[picture.depthScale ? kByFragment : kOrdinary].water[kRippledWater].use();
+  water_.draw(cells_, 0, kClearRings, kCell);
 }
 
-void ShaderPainter::drawRings(int first, int count) const {
-  const int start = discIndices(first);
-  const auto offset = static_cast<std::size_t>(start) * sizeof(std::uint16_t);
-  glBindBuffer(GL_ARRAY_BUFFER, waterVertices_);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, waterIndices_);
-  glEnableVertexAttribArray(kCell);
-  glVertexAttribPointer(kCell, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-  glDrawElements(GL_TRIANGLES, discIndices(first + count) - start, GL_UNSIGNED_SHORT, at(nullptr, offset));
-  glDisableVertexAttribArray(kCell);
+double ShaderPainter::detailEnds(const Picture& picture) {
+  return kDetailEnds * picture.placement.spacing();
 }
 
 }  // namespace teren

@@ -1,14 +1,18 @@
 // Draws ground and water with GLSL: what SoTerrain looks like wherever OpenGL 2.1 is to be had.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
 
 #include "teren/Result.h"
 
+#include "coin/DepthByVertex.h"
 #include "coin/TerrainBuffers.h"
 #include "coin/TerrainPainter.h"
+#include "coin/WaterCells.h"
+#include "coin/WaterDisc.h"
 
 namespace teren {
 
@@ -39,33 +43,40 @@ class ShaderPainter final : public TerrainPainter {
 
   bool knowsLogarithmicDepth() const noexcept override { return true; }
   void draw(const Picture& picture, std::span<const Mesh* const> meshes) override;
-  void forget(const Mesh& mesh) override { buffers_.forget(mesh); }
+  void forget(const Mesh& mesh) override;
   void release() override;
-  std::size_t bytes() const noexcept override { return buffers_.bytes() + waterBytes_; }
+  std::size_t bytes() const noexcept override { return buffers_.bytes() + water_.bytes(); }
 
  private:
   ShaderPainter() = default;
+  /// By the depth they write: ordinary; logarithmic, of fragments; logarithmic, of vertices.
+  enum : std::size_t { kOrdinary, kByFragment, kByVertex, kDepths };
+  enum : std::size_t { kPlain, kHighOrLowGround, kDistant, kTinted, kGrounds };
+  enum : std::size_t { kRippledWater, kSmoothWater, kDeepWaterBelow, kWaters };
   struct Programs {
-    ShaderProgram ground, tinted, water, deep;
+    std::array<ShaderProgram, kGrounds> ground;
+    std::array<ShaderProgram, kWaters> water;
   };
-  static Result<void> link(Programs& programs, const char* depth);
-  const Programs& prepare(const Picture& picture, const Anchor& anchor) const;
+  Result<void> link();
+  static void prepare(const ShaderProgram& program, const Picture& picture, const Anchor& anchor,
+                      const SbDPMatrix& toClip);
+  static double detailEnds(const Picture& picture);  // [m] from the eye
   void makeNoise();
-  void makeWater();
-  /// `tints`: of every mesh, or empty where the program has none.
-  void drawGround(const ShaderProgram& program, const Sample& anchor, std::span<const Mesh* const> meshes,
-                  std::span<const SbColor> tints);
+  const ShaderProgram& programFor(const Mesh& mesh, const Picture& picture, const SbDPMatrix& toClip);
+  void drawGround(const Picture& picture, const Sample& anchor, const SbDPMatrix& toClip,
+                  std::span<const Mesh* const> meshes);
+  void findWater(const Picture& picture);
   /// Before the ground: the opaque water, and behind everything what one sees deep in the clear water.
-  void drawFarWater(const Programs& programs) const;
+  void drawFarWater(const Picture& picture);
   /// After the ground.
-  void drawClearWater(const ShaderProgram& program) const;
-  void drawRings(int first, int count) const;
+  void drawClearWater(const Picture& picture);
 
-  Programs ordinary_, logarithmic_;  // by the depth they write
+  std::array<Programs, kDepths> programs_;
   TerrainBuffers buffers_;
+  DepthByVertex depthByVertex_;
+  WaterDisc water_;
+  WaterCells cells_;  // with water in the picture that is being drawn
   unsigned noise_ = 0;
-  unsigned waterVertices_ = 0, waterIndices_ = 0;
-  std::size_t waterBytes_ = 0;
 };
 
 }  // namespace teren

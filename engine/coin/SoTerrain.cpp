@@ -495,9 +495,10 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
   if (!isFinite(picture.eye)) return;  // of a camera that is nowhere
   std::vector<const teren::Mesh*> meshes =
       teren::visibleMeshes(state, *private_->children.scene(), picture.placement);
-  picture.water =
-      teren::showsWater(state, *private_->children.scene(), picture.placement, picture.waterLevel);
-  if (meshes.empty() && !picture.water) return;
+  const std::vector<SbBox2f> wet =
+      teren::wetPlaces(state, *private_->children.scene(), picture.placement, picture.waterLevel);
+  picture.wet = wet;
+  if (meshes.empty() && wet.empty()) return;
   if (picture.eye[2] + private_->origin[2] > static_cast<double>(picture.waterLevel)) {
     std::erase_if(meshes, [&](const teren::Mesh* mesh) { return teren::isLostInWater(*mesh, picture); });
   }

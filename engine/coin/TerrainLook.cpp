@@ -64,15 +64,18 @@ bool isLostInWater(const Mesh& mesh, const Picture& picture) {
   return away.length() > kClearShare * picture.viewDistance;
 }
 
-bool showsWater(SoState* state, const Scene& scene, const ScenePlacement& placement, float waterLevel) {
-  return std::any_of(scene.meshes().begin(), scene.meshes().end(), [&](const auto& mesh) {
-    if (mesh->minHeight >= waterLevel) return false;
+std::vector<SbBox2f> wetPlaces(SoState* state, const Scene& scene, const ScenePlacement& placement,
+                               float waterLevel) {
+  std::vector<SbBox2f> places;
+  for (const auto& mesh : scene.meshes()) {
+    if (mesh->minHeight >= waterLevel) continue;
     const SbBox3f box = placement.box(*mesh);
     const float surface = box.getMax()[2] + (waterLevel - mesh->maxHeight);
     const SbVec3f low = box.getMin(), high = box.getMax();
-    return SoCullElement::cullTest(state, SbBox3f(low[0], low[1], surface, high[0], high[1], surface)) ==
-           FALSE;
-  });
+    if (!SoCullElement::cullTest(state, SbBox3f(low[0], low[1], surface, high[0], high[1], surface)))
+      places.emplace_back(low[0], low[1], high[0], high[1]);
+  }
+  return places;
 }
 
 std::vector<const Mesh*> visibleMeshes(SoState* state, const Scene& scene, const ScenePlacement& placement) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <Inventor/SbBox2f.h>
 #include <Inventor/SbColor.h>
 #include <Inventor/SbDPMatrix.h>
 #include <Inventor/SbVec3d.h>
@@ -38,9 +39,10 @@ Sun sunOf(SoState* state);
 /// Whether a mesh cannot be seen through the water, from above it: too deep, or below opaque water.
 bool isLostInWater(const Mesh& mesh, const Picture& picture);
 
-/// Whether any water above these meshes is not outside the view volume or a clipping plane, wherever its bed
-/// is. The level is a height of the world [m].
-bool showsWater(SoState* state, const Scene& scene, const ScenePlacement& placement, float waterLevel);
+/// Where there is water above these meshes that is not outside the view volume or a clipping plane, wherever
+/// its bed is: their rectangles.
+std::vector<SbBox2f> wetPlaces(SoState* state, const Scene& scene, const ScenePlacement& placement,
+                               float waterLevel);
 
 /// The meshes that are not outside the view volume or a clipping plane, nearest to the eye first.
 std::vector<const Mesh*> visibleMeshes(SoState* state, const Scene& scene, const ScenePlacement& placement);

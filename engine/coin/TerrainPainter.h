@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include <Inventor/SbBox2f.h>
 #include <Inventor/SbColor.h>
 #include <Inventor/SbDPMatrix.h>
 #include <Inventor/SbVec2f.h>
@@ -37,8 +38,9 @@ struct Picture {
   SbVec3f sun{0.0F, 0.0F, 1.0F};     ///< unit vector towards the sun
   SbColor sunlight{1.0F, 1.0F, 1.0F};  ///< its colour times its intensity
   float viewDistance = 1.0F;           ///< [m] > 0
-  bool water = false;                  ///< whether there is any to draw
-  float waterLevel = 0.0F;             ///< [m] absolute, finite also where there is no water
+  /// Where on the plane there may be water to see, in rectangles; empty: none is drawn.
+  std::span<const SbBox2f> wet = {};
+  float waterLevel = 0.0F;  ///< [m] absolute, finite also where there is no water
   SbColor haze{1.0F, 1.0F, 1.0F};
   /// Of the depth as LogarithmicDepth.h has it; empty: the ordinary depth.
   std::optional<SbVec2f> depthScale = {};

@@ -7,6 +7,8 @@
 #include <set>
 #include <vector>
 
+#include <Inventor/actions/SoGLRenderAction.h>
+#include <Inventor/nodes/SoCallback.h>
 #include <Inventor/nodes/SoDirectionalLight.h>
 #include <Inventor/nodes/SoDrawStyle.h>
 #include <Inventor/nodes/SoPerspectiveCamera.h>
@@ -19,6 +21,8 @@
 #include "teren/Hash.h"
 
 #include "coin/SoTerrain.h"
+#include "coin/TerrainLook.h"
+#include "coin/TerrainShaders.h"
 #include "tests/coin/OffscreenView.h"
 #include "tests/coin/Stage.h"
 #include "tests/engine/stream/FaultWorld.h"
@@ -123,6 +127,87 @@ TEST(Picture, TheGroundsTextureStaysInItsPlaceUnderAMovingEyeAndRepeatsAfter1024
   for (const float metres : {0.5F, 1.0F, 150.0F})
     EXPECT_NE(at(metres), here) << "it moves along with the eye";
   EXPECT_EQ(at(512.0F), here);
+}
+
+/// The largest difference of a colour between two pictures.
+int mostDifferent(const QImage& a, const QImage& b) {
+  int most = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
+      most = std::max({most, std::abs(qRed(p) - qRed(q)), std::abs(qGreen(p) - qGreen(q)),
+                       std::abs(qBlue(p) - qBlue(q))});
+    }
+  }
+  return most;
+}
+
+/// Level ground at a height, seen from some metres above it.
+QImage levelGround(OffscreenView& view, double height, double above, float waterLevel) {
+  const Stage stage;
+  stage.terrain->viewDistance = 1e5F;
+  stage.terrain->waterLevel = waterLevel;
+  stage.camera->farDistance = 1e5F;
+  stage.terrain->setScene(
+      makeScene({.side = 1, .intervals = 32, .height = [height](double, double) { return height; }}));
+  stage.look(SbVec3f(32.0F, 32.0F, static_cast<float>(height + above)), 0.0, -90.0);
+  stage.camera->heightAngle = static_cast<float>(2.0 * std::atan(25.0 / above));
+  view.draw(stage.root, kMagenta);  // uploads
+  return view.picture(stage.root, kMagenta);
+}
+
+TEST(Picture, LosesTheGroundsDetailBeforeItIsLeftOut) {
+  OffscreenView view(128, 128);
+  const double ends = 2.0 * kDetailEnds;
+  const QImage last = levelGround(view, 100.0, ends - 0.5, -1e6F),
+               none = levelGround(view, 100.0, ends + 0.5, -1e6F);
+  EXPECT_LE(mostDifferent(last, none), 2);
+  EXPECT_GT(mostDifferent(none, levelGround(view, 100.0, 0.4 * ends, -1e6F)), 20);
+}
+
+TEST(Picture, ComputesSnowAndShoresFromWhereTheyMayBegin) {
+  OffscreenView view(128, 128);
+  EXPECT_LE(mostDifferent(levelGround(view, kSnowAbove - 0.01, 60.0, -1e6F),
+                          levelGround(view, kSnowAbove + 0.01, 60.0, -1e6F)),
+            1);
+  EXPECT_LE(mostDifferent(levelGround(view, 100.0, 60.0, 100.0F - kShoreBelow - 0.01F),
+                          levelGround(view, 100.0, 60.0, 100.0F - kShoreBelow + 0.01F)),
+            1);
+  const QImage grass = levelGround(view, 100.0, 60.0, -1e6F);
+  EXPECT_GT(mostDifferent(grass, levelGround(view, 500.0, 60.0, -1e6F)), 80);
+  EXPECT_GT(mostDifferent(grass, levelGround(view, 100.0, 60.0, 96.0F)), 80);
+}
+
+TEST(Picture, IsDrawnFrontToBack) {
+  const Stage stage;
+  const auto scene = makeScene({.side = 8, .intervals = 2, .height = hill});
+  struct Seen {
+    std::shared_ptr<const Scene> scene;
+    std::vector<const Mesh*> meshes;
+  } seen{scene, {}};
+  auto* ask = new SoCallback;
+  ask->setCallback(
+      [](void* data, SoAction* action) {
+        if (!action->isOfType(SoGLRenderAction::getClassTypeId())) return;
+        auto& told = *static_cast<Seen*>(data);
+        told.meshes = visibleMeshes(action->getState(), *told.scene, {SbVec3d(0.0, 0.0, 0.0), 2.0});
+      },
+      &seen);
+  stage.root->addChild(ask);
+  OffscreenView view(64, 64);
+  for (const double heading : {20.0, 110.0, 200.0, 290.0}) {
+    const SbVec3f eye(17.0F, 14.0F, 40.0F);
+    stage.look(eye, heading, -70.0);
+    view.draw(stage.root, kMagenta);
+    const ScenePlacement placement(SbVec3d(0.0, 0.0, 0.0), 2.0);
+    float last = 0.0F;
+    for (const Mesh* mesh : seen.meshes) {
+      const float away = (placement.box(*mesh).getClosestPoint(eye) - eye).length();
+      EXPECT_GE(away, last);
+      last = away;
+    }
+    EXPECT_GT(seen.meshes.size(), 3U) << "heading " << heading;
+  }
 }
 
 TEST(Picture, ShowsTheSeaWhereItsBedIsOutsideTheView) {
