@@ -10,6 +10,7 @@
 #include "teren/Quote.h"
 
 #include "apps/files/OutputFile.h"
+#include "apps/report/Gnuplot.h"
 #include "apps/teren/Command.h"
 #include "apps/teren/Interruption.h"
 #include "apps/teren/ProgressLine.h"

@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
-#include <spawn.h>
 #include <string>
-#include <sys/wait.h>
 #include <vector>
 
 #include "teren/Parameter.h"
 
 #include "apps/files/OutputFile.h"
-
-extern char** environ;
+#include "apps/report/Gnuplot.h"
 
 namespace teren {
 namespace {
@@ -38,39 +31,6 @@ constexpr std::array kMemory{
     Curve{"triangulation", [](const SandResult& r) { return static_cast<double>(r.bytes) / 1e6; }},
     Curve{"regular grid as fine",
           [](const SandResult& r) { return static_cast<double>(r.gridBytes) / 1e6; }}};
-
-/// Starts gnuplot, which reads and writes these and complains to nobody; 0 or an errno, and how it ended.
-int runGnuplot(std::FILE* script, std::FILE* picture, int& status) {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, fileno(script), 0);
-  posix_spawn_file_actions_adddup2(&files, fileno(picture), 1);
-  posix_spawn_file_actions_addopen(&files, 2, "/dev/null", 1, 0);
-  std::string name = "gnuplot";
-  const std::array<char*, 2> arguments{name.data(), nullptr};
-  pid_t process = 0;
-  const int problem = posix_spawnp(&process, "gnuplot", &files, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  while (problem == 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  return problem;
-}
-
-/// Draws what a script says, in a language whose only output is the picture.
-Result<void> draw(const std::string& script, std::FILE* picture) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> text(std::tmpfile(), &std::fclose);
-  if (text == nullptr) return Error{std::string("no temporary file can be made: ") + std::strerror(errno)};
-  const bool written = std::fwrite(script.data(), 1, script.size(), text.get()) == script.size();
-  if (!written || std::fflush(text.get()) != 0) return Error{"the temporary file cannot be written"};
-  std::rewind(text.get());
-  int status = 0;
-  if (const int problem = runGnuplot(text.get(), picture, status); problem != 0) {
-    return Error{std::string("gnuplot cannot be started (") + std::strerror(problem) +
-                 "), install it, say with apt install gnuplot-nox"};
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return Error{"gnuplot has failed"};
-  return {};
-}
 
 struct Axis {
   const char* label;
@@ -110,7 +70,7 @@ std::string scriptOf(const std::string& title, const Axis& axis, const char* uni
 Result<void> write(const std::filesystem::path& file, const std::string& script) {
   Result<OutputFile> output = OutputFile::create(file);
   if (!output) return output.error();
-  if (Result<void> drawn = draw(script, output->stream()); !drawn) return drawn;
+  if (Result<void> drawn = drawWithGnuplot(script, output->stream()); !drawn) return drawn;
   return output->commit();
 }
 
@@ -129,12 +89,6 @@ std::vector<const SandRun*> chosen(std::span<const SandRun> runs, const Axis& sa
 }
 
 }  // namespace
-
-Result<void> findGnuplot() {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> nowhere(std::fopen("/dev/null", "r+"), &std::fclose);
-  if (nowhere == nullptr) return Error{"/dev/null cannot be opened"};
-  return draw("", nowhere.get());
-}
 
 Result<void> plotSand(const std::filesystem::path& folder, std::span<const SandRun> runs) {
   const std::vector<const SandRun*> sizes = chosen(runs, kTrace, kVertices);

@@ -11,9 +11,6 @@
 
 namespace teren {
 
-/// Whether gnuplot can be started; an error says what to install.
-Result<void> findGnuplot();
-
 /// Draws .svg files into a folder that is there: where there are several sizes of mesh,
 /// time-by-vertices (each part of the longest trace's runs) and bytes-by-vertices (mesh and grid); where
 /// there are several traces, time-by-trace (of the largest mesh). Each file appears whole or not at all.
