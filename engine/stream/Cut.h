@@ -34,7 +34,7 @@ class Cut {
   void clear(int rootLevel);
   /// Of the root level, and none twice.
   Index addRoot(const NodeKey& key);
-  bool hasRoot(const NodeKey& key) const { return roots_.find(key) != kNone; }
+  bool hasRoot(const NodeKey& key) const { return roots_.contains(key); }
   /// Gives a leaf four children.
   void divide(Index leaf);
 

@@ -167,18 +167,17 @@ std::optional<GroundSweep::Rest> GroundSweep::rest(const Position& origin, doubl
                                                    double radius) const {
   MovingBall ball{{x, y, 0.0}, {x, y, 0.0}, std::max(radius, sweepError(0.0))};
   double top = -std::numeric_limits<double>::infinity(), bottom = -top;
-  std::vector<Square> under;
-  March(ground_, pitch_, origin, ball).overSquares([&](const Square& square) {
+  const March march(ground_, pitch_, origin, ball);  // twice over the squares, so that they need no room
+  march.overSquares([&](const Square& square) {
     top = std::max(top, highest(square));
     bottom = std::min(bottom, lowest(square));
-    under.push_back(square);
   });
-  if (under.empty()) return std::nullopt;
+  if (top < bottom) return std::nullopt;
   ball.from.z = top + ball.radius + 1.0;
   ball.to.z = bottom - ball.radius - 1.0;
   ball = withLeastRadius(ball);
   std::optional<Touch> touch;
-  for (const Square& square : under) sweepSquare(ball, square, touch);
+  march.overSquares([&](const Square& square) { sweepSquare(ball, square, touch); });
   if (!touch) return std::nullopt;
   return Rest{ball.at(touch->time).z, touch->normal};
 }

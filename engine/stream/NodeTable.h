@@ -35,7 +35,7 @@ class NodeTable {
   Value find(const NodeKey& key) const noexcept {
     return slots_.empty() ? kNone : slots_[placeOf(key)].value;
   }
-  std::size_t size() const noexcept { return count_; }
+  bool contains(const NodeKey& key) const noexcept { return find(key) != kNone; }
   std::size_t bytes() const noexcept { return slots_.capacity() * sizeof(Slot); }
 
  private:

@@ -62,6 +62,9 @@ struct ObjectSet::Collision {
   std::optional<std::size_t> b;  // empty: the ground
 };
 
+ObjectSet::ObjectSet(double pitch) : pitch_(pitch) {}
+ObjectSet::~ObjectSet() = default;
+
 Object& ObjectSet::add(std::unique_ptr<Object> object) {
   assert(object);
   members_.push_back({std::move(object)});
@@ -167,15 +170,13 @@ void ObjectSet::end(Way& way) {
   way.moves = dot(gone, gone) > 0.0;
 }
 
-std::vector<ObjectSet::Way> ObjectSet::move(double dt, const Ground& ground) {
-  std::vector<Way> ways;
-  ways.reserve(members_.size());
+void ObjectSet::move(double dt, const Ground& ground) {
+  ways_.clear();
   for (std::size_t index = 0; index < members_.size(); ++index) {
-    ways.push_back(begin(index));
+    ways_.push_back(begin(index));
     at(index).update(dt, ground);
-    end(ways.back());
+    end(ways_.back());
   }
-  return ways;
 }
 
 void ObjectSet::advance(double dt, const Ground& ground, const FinestGround& finest) {
@@ -186,29 +187,29 @@ void ObjectSet::advance(double dt, const Ground& ground, const FinestGround& fin
     }
     dt = 0.0;
   }
-  std::vector<Way> ways = move(dt, ground);
+  move(dt, ground);
   const GroundSweep sweep(finest, pitch_);
-  for (Way& way : ways) {
+  for (Way& way : ways_) {
     if (way.moves) way.ground = sweep.sweep(way.origin, way.ball());
   }
-  while (const std::optional<Collision> first = firstCollision(ways)) collide(*first, ways, sweep, dt);
-  for (Way& way : ways) {
+  while (const std::optional<Collision> first = firstCollision()) collide(*first, sweep, dt);
+  for (Way& way : ways_) {
     if (way.touches) lift(way, sweep, dt);
   }
 }
 
-std::optional<ObjectSet::Collision> ObjectSet::firstCollision(const std::vector<Way>& ways) const {
+std::optional<ObjectSet::Collision> ObjectSet::firstCollision() const {
   std::optional<Collision> first;
   const auto consider = [&first](const std::optional<Touch>& touch, std::size_t a,
                                  std::optional<std::size_t> b) {
     if (touch && (!first || touch->time < first->touch.time)) first = Collision{*touch, a, b};
   };
-  for (std::size_t a = 0; a < ways.size(); ++a) {
-    if (ways[a].moves) consider(ways[a].ground, a, std::nullopt);
+  for (std::size_t a = 0; a < ways_.size(); ++a) {
+    if (ways_[a].moves) consider(ways_[a].ground, a, std::nullopt);
   }
-  for (std::size_t a = 0; a < ways.size(); ++a) {
-    for (std::size_t b = a + 1; b < ways.size(); ++b) {
-      if (ways[a].moves || ways[b].moves) consider(touchOf(ways[a], ways[b]), a, b);
+  for (std::size_t a = 0; a < ways_.size(); ++a) {
+    for (std::size_t b = a + 1; b < ways_.size(); ++b) {
+      if (ways_[a].moves || ways_[b].moves) consider(touchOf(ways_[a], ways_[b]), a, b);
     }
   }
   return first;
@@ -240,9 +241,8 @@ Contact ObjectSet::contactOf(const Way& way, const Touch& touch, double gap, dou
   return contact;
 }
 
-void ObjectSet::collide(const Collision& collision, std::vector<Way>& ways, const GroundSweep& sweep,
-                        double dt) {
-  Way& a = ways[collision.a];
+void ObjectSet::collide(const Collision& collision, const GroundSweep& sweep, double dt) {
+  Way& a = ways_[collision.a];
   const Touch& touch = collision.touch;
   if (!collision.b) {
     Contact contact = contactOf(a, touch, kContactGap, dt);
@@ -253,7 +253,7 @@ void ObjectSet::collide(const Collision& collision, std::vector<Way>& ways, cons
     tell(a, contact, touch.time);
     return;
   }
-  Way& b = ways[*collision.b];
+  Way& b = ways_[*collision.b];
   const Touch back{touch.time, -1.0 * touch.normal};
   const double gap = a.moves && b.moves ? 0.5 * kContactGap : kContactGap;
   Contact toA = contactOf(a, touch, a.moves ? gap : 0.0, dt);

@@ -20,7 +20,8 @@ namespace teren {
 class ObjectSet {
  public:
   /// `pitch` [m] of the world.
-  explicit ObjectSet(double pitch) : pitch_(pitch) {}
+  explicit ObjectSet(double pitch);
+  ~ObjectSet();
 
   /// The first becomes active.
   Object& add(std::unique_ptr<Object> object);
@@ -63,17 +64,18 @@ class ObjectSet {
   Vector3 centre(const Way& way, const Motion& motion) const;
   Way begin(std::size_t index);
   void end(Way& way);
-  std::vector<Way> move(double dt, const Ground& ground);
-  std::optional<Collision> firstCollision(const std::vector<Way>& ways) const;
+  void move(double dt, const Ground& ground);
+  std::optional<Collision> firstCollision() const;
   std::optional<Touch> touchOf(const Way& a, const Way& b) const;
   Contact contactOf(const Way& way, const Touch& touch, double gap, double dt) const;
-  void collide(const Collision& collision, std::vector<Way>& ways, const GroundSweep& sweep, double dt);
+  void collide(const Collision& collision, const GroundSweep& sweep, double dt);
   void tell(Way& way, const Contact& contact, double time);
   void lift(Way& way, const GroundSweep& sweep, double dt);
 
   double pitch_;
   std::vector<Member> members_;
   std::vector<Motion> motions_;
+  std::vector<Way> ways_;  // of the step; kept for the room it has
   std::size_t active_ = 0;
   bool timeRefused_ = false;
   std::vector<std::string> messages_;

@@ -211,9 +211,10 @@ void Streamer::rank(std::span<const NodeKey> view) {
   wanted_ = ground_;
   groundCount_ = ground_.size();
   ranks_.clear();
-  for (std::size_t k = 0; k < wanted_.size(); ++k) ranks_.emplace(wanted_[k], k);
+  for (std::size_t k = 0; k < wanted_.size(); ++k)
+    ranks_.insert(wanted_[k], static_cast<NodeTable::Value>(k));
   for (const NodeKey& key : view) {
-    if (ranks_.emplace(key, wanted_.size()).second) wanted_.push_back(key);
+    if (ranks_.insert(key, static_cast<NodeTable::Value>(wanted_.size()))) wanted_.push_back(key);
   }
   nextWanted_ = 0;
   toJoin_.clear();
@@ -453,7 +454,7 @@ void Streamer::integrate(TaskRunner::Finished finished) {
   } else if (!isDrawable(key)) {
     --missing_;
   } else {
-    toJoin_.insert(ranks_.at(key));
+    toJoin_.insert(static_cast<std::size_t>(ranks_.find(key)));
   }
 }
 
@@ -468,7 +469,7 @@ void Streamer::integrateJoin(const JoinTask& task) {
     missing_ -= nodes.size();
   } else {  // what they were to be joined with has changed: once more
     for (const NodeKey& key : nodes) {
-      if (isWanted(key) && nodes_.heights(key)) toJoin_.insert(ranks_.at(key));
+      if (isWanted(key) && nodes_.heights(key)) toJoin_.insert(static_cast<std::size_t>(ranks_.find(key)));
     }
   }
   peakMeshBytes_ = std::max(peakMeshBytes_, nodes_.meshBytes());

@@ -20,6 +20,7 @@
 #include "stream/JoinTask.h"
 #include "stream/MemoryPlan.h"
 #include "stream/NodeStore.h"
+#include "stream/NodeTable.h"
 #include "stream/Refinement.h"
 #include "stream/Selection.h"
 #include "stream/View.h"
@@ -174,7 +175,7 @@ class Streamer {
   NodeTable groundSeen_;
   std::size_t groundCount_ = 0;  // the first of wanted_: level-0 nodes under objects
   std::vector<NodeKey> wanted_;  // most urgent first; of a view by error, ground only
-  std::unordered_map<NodeKey, std::size_t, NodeKeyHash> ranks_;  // in wanted_
+  NodeTable ranks_;              // in wanted_
   std::size_t missing_ = 0;
   std::size_t nextWanted_ = 0;    // all before it are held or being made
   std::vector<NodeKey> drops_;    // to be freed, when there is time
