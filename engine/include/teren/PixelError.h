@@ -1,6 +1,7 @@
 // How wrong a picture is: what drawn meshes are off by, in metres, and in pixels as a camera sees it.
 #pragma once
 
+#include "teren/Morph.h"
 #include "teren/Position.h"
 #include "teren/Scene.h"
 #include "teren/World.h"
@@ -10,7 +11,8 @@ namespace teren {
 /// [m] Upper estimate of the largest vertical distance between a mesh and the level-0 triangles below and
 /// above it; 0 where nodes of level 0 are drawn. At least 99.9 % of a world's nodes have no more than that,
 /// and in the median less than half as much (doc/accuracy.md), once they have been measured by an engine of
-/// this world; before, it is an estimate from the plugins' promises. Any thread.
+/// this world; before, it is an estimate from the plugins' promises. Of the vertices' own heights, not moved
+/// with distance (Morph.h). Any thread.
 double drawnError(const World& world, const Mesh& mesh);
 
 /// A camera with perspective.
@@ -29,7 +31,10 @@ double lensPixels(double rows, double fieldOfView) noexcept;
 /// than it is wide, and at least kNearestGround. An upper bound in the middle of the picture for what one
 /// sees from the side; towards its corners perspective stretches everything (by 1 / cos^2 of the angle).
 /// O(1), O(triangles) where the mesh is near.
-double pixelError(const World& world, const Mesh& mesh, const Eye& eye);
+///
+/// With the scene's `morph`, and the eye that its vertices move with, they are taken where they are drawn: so
+/// far on their way, (1 - t) times the mesh's own error and t times that of the next coarser level.
+double pixelError(const World& world, const Mesh& mesh, const Eye& eye, const Morph& morph = {});
 inline constexpr double kNearestGround = 1.0;  ///< [m]
 
 /// [pixel] Over all meshes of a scene, in the picture or not.
@@ -38,7 +43,7 @@ struct PixelError {
   double max = 0.0;
 };
 
-/// Of all meshes of a scene: about 0.2 ms for 10^6 triangles.
+/// Of all meshes of a scene, moved as it says: about 0.2 ms for 10^6 triangles.
 PixelError pixelError(const World& world, const Scene& scene, const Eye& eye);
 
 }  // namespace teren

@@ -19,6 +19,7 @@
 
 #include "tests/engine/stream/FaultWorld.h"
 #include "tests/engine/stream/NodeErrorsWait.h"
+#include "world/NodeErrors.h"
 
 namespace teren {
 namespace {
@@ -165,6 +166,56 @@ TEST(Morph, LeavesOneSurfaceWithoutCracksFromWhereverItIsSeen) {
   }
   EXPECT_GT(moving, 1000U);
   EXPECT_GT(between, 100U) << "vertices between levels";
+}
+
+TEST(Morph, ShowsNoMoreErrorThanIsTold) {
+  Flight flight(12.0);
+  const Point eye{10.0, 20.0, 60.0};
+  flight.settleAt(eye);
+  ASSERT_TRUE(test::measureNodeErrors(*flight.engine));
+  flight.settleAt(eye);
+  const auto scene = flight.engine->scene();
+  const Eye camera{flight.puppet->place.position, eye.height, flight.lens()};
+  const PixelError told = pixelError(*flight.world, *scene, camera);
+  EXPECT_LE(told.max,
+            1.3 * 12.0);  // choosing takes all nodes of a level for equal, telling goes by their bend
+  // Of every vertex, what is promised for where it is drawn.
+  std::size_t more = 0;
+  for (const auto& mesh : scene->meshes()) {
+    const double own = drawnError(*flight.world, *mesh),
+                 of = pixelError(*flight.world, *mesh, camera, scene->morph());
+    EXPECT_LE(of, told.max);
+    more += of > pixelError(*flight.world, *mesh, camera) * 1.01 ? 1 : 0;
+    if (mesh->nodeLevel == flight.world->topLevel()) continue;
+    const double next = std::max(own, flight.world->nodeErrors().estimate(mesh->nodeLevel + 1));
+    for (const SurfaceVertex& vertex : mesh->vertices) {
+      if (vertex.level() != mesh->nodeLevel) continue;
+      const float distance = distanceTo(*scene, eye, placeOf(*mesh, vertex), vertex.height);
+      const auto t = static_cast<double>(scene->morph().share(vertex.level(), distance));
+      ASSERT_LE((own + t * (next - own)) / static_cast<double>(distance) * flight.lens(), of * 1.0001);
+    }
+  }
+  EXPECT_GT(more, scene->meshes().size() / 10) << "meshes that are more wrong for having moved";
+  // And the truth at random places.
+  const SceneQuery query(seenFrom(*scene, eye), flight.world->intervals());
+  RandomSequence random(6);
+  std::size_t seen = 0;
+  double worst = 0.0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const double reach = 2800.0 * unit(random), angle = 6.2831853 * unit(random);
+    const double east = eye.east + reach * std::cos(angle), north = eye.north + reach * std::sin(angle);
+    const Position position = *Position::fromMetres(east, north, flight.world->pitch());
+    DrawnPoint point;
+    query.points({&position, 1}, {&point, 1});
+    if (!point.there) continue;
+    ++seen;
+    const double gap = std::fabs(point.height - flight.world->query(position).drawn);
+    const double up = point.height - eye.height;
+    worst = std::max(worst, gap / std::max(std::sqrt(reach * reach + up * up), 1.0) * flight.lens());
+  }
+  EXPECT_GT(seen, 3000U);
+  EXPECT_LE(worst, told.max);
+  EXPECT_GT(worst, 0.1 * told.max);
 }
 
 /// [px] by how much two scenes differ at the vertices of the first that are not in both, as an eye sees them.
