@@ -33,6 +33,8 @@ constexpr double kUnfeltLift = 0.02;      // [m] the ground lifts it by this muc
 constexpr double kScriptRollTime = 0.35;  // [s] as the pilot's
 constexpr double kGravity = 9.81;         // [m/s^2]
 
+constexpr double kLongWave = 97.0, kShortWave = 37.0;  // [s] of the autopilot's course
+
 constexpr double kClearanceRate = 25.0;  // [m/s] at full climb, plus
 constexpr double kClearanceShare = 0.5;  // [1/s] of the clearance
 
@@ -64,18 +66,29 @@ void Aircraft::setControls(const AircraftControls& controls) noexcept {
                bounded(controls.climb, -1.0, 1.0, 0.0)};
 }
 
+void Aircraft::setAutopilot(bool on) noexcept {
+  autopilot_ = on;
+  autopilotSeconds_ = 0.0;
+  if (on) script_.reset();
+}
+
 bool Aircraft::isHeld(std::string_view one, std::string_view other) const {
   return heldKeys_.contains(one) || heldKeys_.contains(other);
 }
 
 // A key counts as itself, so holding W and the up arrow and letting one go still means faster.
 bool Aircraft::handle(const InputEvent& event) {
+  if (event.name == "Space") {
+    if (event.value > 0.0) setAutopilot(!autopilot_);
+    return true;
+  }
   constexpr std::array<std::string_view, 10> kKeys{"Up", "W",     "Down", "S", "Left",
                                                    "A",  "Right", "D",    "R", "F"};
   if (std::find(kKeys.begin(), kKeys.end(), event.name) == kKeys.end()) return false;
   if (event.value > 0.0) {
     heldKeys_.emplace(event.name);
     script_.reset();
+    autopilot_ = false;
   } else if (const auto held = heldKeys_.find(event.name); held != heldKeys_.end()) {
     heldKeys_.erase(held);
   }
@@ -93,7 +106,8 @@ void Aircraft::letGo() {
 std::vector<KeyHelp> Aircraft::keys() const {
   return {{"Up, Down  or  W, S", "faster, slower"},
           {"Left, Right  or  A, D", "turn"},
-          {"R, F", "climb, descend"}};
+          {"R, F", "climb, descend"},
+          {"Space", "autopilot, until you steer"}};
 }
 
 void Aircraft::update(double dt, const Ground& ground) {
@@ -117,13 +131,25 @@ void Aircraft::step(double dt, const Ground& ground) {
   stayAbove(ground);
 }
 
+// Two slow waves whose periods do not fit together, so that no turn is like the last. Its clearance is
+// brought to what is safe as a pilot would do it.
+AircraftControls Aircraft::course(double dt) {
+  autopilotSeconds_ += dt;
+  const double wave = 0.6 * std::sin(kFullTurn * autopilotSeconds_ / kLongWave) +
+                      0.4 * std::sin(kFullTurn * autopilotSeconds_ / kShortWave);
+  const double sharpest = std::min(1.0, kCoursePull / (kTurnRate * speed_));
+  const double climb = std::clamp((kSafeClearance - clearance_) / kClearanceRate, -1.0, 1.0);
+  return {.turn = sharpest * wave, .throttle = 0.0, .climb = climb};
+}
+
 void Aircraft::steer(double dt) {
-  roll_ += (controls_.turn * kMaxRoll - roll_) * -std::expm1(-dt / kRollTime);
+  const AircraftControls controls = autopilot_ ? course(dt) : controls_;
+  roll_ += (controls.turn * kMaxRoll - roll_) * -std::expm1(-dt / kRollTime);
   heading_ = wrapped(heading_ + roll_ / kMaxRoll * kTurnRate * dt);
   const double acceleration = kAcceleration + kAccelerationShare * speed_;
-  speed_ = std::clamp(speed_ + controls_.throttle * acceleration * dt, kMinSpeed, kMaxSpeed);
+  speed_ = std::clamp(speed_ + controls.throttle * acceleration * dt, kMinSpeed, kMaxSpeed);
   const double rate = kClearanceRate + kClearanceShare * clearance_;
-  clearance_ = std::clamp(clearance_ + controls_.climb * rate * dt, kMinClearance, kMaxClearance);
+  clearance_ = std::clamp(clearance_ + controls.climb * rate * dt, kMinClearance, kMaxClearance);
 }
 
 void Aircraft::move(double dt, const Ground& ground) {
@@ -258,6 +284,7 @@ std::vector<DisplayLine> Aircraft::headUpDisplay() const {
   std::vector<DisplayLine> lines =
       flightLines({position_, pitch_, height_, heightAboveGround_, speed_, heading_});
   if (script_) lines.push_back({"pilot", "follows a script"});
+  if (autopilot_) lines.push_back({"pilot", "autopilot"});
   if (touchedSeconds_ < kTouchShown) lines.push_back({"HIT", touched_, true});
   return lines;
 }

@@ -43,8 +43,10 @@ class Aircraft : public Object {
  public:
   static constexpr double kMinSpeed = 5.0, kMaxSpeed = 600.0;         // [m/s]
   static constexpr double kMinClearance = 15.0, kMaxClearance = 3e3;  // [m] where the pilot may set it
-  static constexpr double kHardClearance = 4.0;                       // [m] it is never lower than this
-  static constexpr double kRadius = 3.0;                              // [m] of its collision sphere
+  static constexpr double kSafeClearance = 150.0;                     // [m] of the autopilot
+  static constexpr double kCoursePull = 6.0;     // [m/s^2] sideways, in its sharpest turn
+  static constexpr double kHardClearance = 4.0;  // [m] it is never lower than this
+  static constexpr double kRadius = 3.0;         // [m] of its collision sphere
   static constexpr double kBounce = 0.4;  // share of the speed into what it hits that it is thrown back with
   static constexpr double kTouchShown = 3.0;      // [s] for which the display says what it hit
   static constexpr double kTurnRate = 0.5;        // [rad/s] at full turn
@@ -58,7 +60,11 @@ class Aircraft : public Object {
 
   std::string name() const override { return name_; }
   void setControls(const AircraftControls& controls) noexcept;
-  /// Arrows or W A S D, R and F.
+  /// The autopilot flies a gentle course by itself, to the left and to the right, kSafeClearance above the
+  /// ground, until the pilot touches the controls. Ends a script.
+  void setAutopilot(bool on) noexcept;
+  bool hasAutopilot() const noexcept { return autopilot_; }
+  /// Arrows or W A S D, R and F; Space for the autopilot.
   bool handle(const InputEvent& event) override;
   void letGo() override;
   std::vector<KeyHelp> keys() const override;
@@ -91,6 +97,7 @@ class Aircraft : public Object {
  private:
   void step(double dt, const Ground& ground);
   void steer(double dt);
+  AircraftControls course(double dt);
   void move(double dt, const Ground& ground);
   bool followScript(double dt);
   void follow(double dt, const Ground& ground);
@@ -105,6 +112,8 @@ class Aircraft : public Object {
   Model model_;
   std::shared_ptr<const Script> script_;
   double scriptSeconds_ = 0.0;
+  bool autopilot_ = false;
+  double autopilotSeconds_ = 0.0;  // since it was switched on
   AircraftControls controls_;
   std::set<std::string, std::less<>> heldKeys_;
   Position position_;

@@ -364,5 +364,56 @@ TEST(Aircraft, HasAModelOfTrianglesAllOfWhosePointsExist) {
   EXPECT_NEAR(widest, 5.5F, 1e-6F);
 }
 
+TEST(AircraftAutopilot, FliesAGentleCourseToBothSidesAtASafeHeight) {
+  const FakeGround ground(
+      [](double east, double north) { return 100.0 * std::sin(east / 1500.0) * std::cos(north / 1300.0); });
+  for (const double speed : {60.0, 300.0}) {
+    Aircraft aircraft({.speed = speed, .clearance = 30.0});
+    aircraft.setAutopilot(true);
+    double left = 0.0, right = 0.0, before = aircraft.heading(), lowest = 1e9;
+    for (int frame = 0; frame < 60 * 200; ++frame) {
+      aircraft.update(1.0 / 60.0, ground);
+      const double turn = std::remainder(aircraft.heading() - before, 2.0 * kPi);
+      before = aircraft.heading();
+      left = std::min(left, turn);
+      right = std::max(right, turn);
+      if (frame > 600) lowest = std::min(lowest, heightOf(ground, aircraft));
+    }
+    const double sharpest = Aircraft::kCoursePull / speed / 60.0;
+    EXPECT_LT(left, -0.3 * sharpest);
+    EXPECT_GT(right, 0.3 * sharpest);
+    EXPECT_GE(left, -1.01 * sharpest);
+    EXPECT_LE(right, 1.01 * sharpest);
+    EXPECT_NEAR(aircraft.clearance(), Aircraft::kSafeClearance, 1.0);
+    EXPECT_GT(lowest, 0.5 * Aircraft::kSafeClearance);
+    EXPECT_EQ(aircraft.touches(), 0);
+    EXPECT_NEAR(aircraft.speed(), speed, 1e-9);
+  }
+}
+
+TEST(AircraftAutopilot, IsOnAndOffBySpaceAndGivesWayToEverySteeringKey) {
+  const FakeGround ground = flatGround(0.0);
+  for (const char* key : {"Up", "W", "Down", "S", "Left", "A", "Right", "D", "R", "F"}) {
+    Aircraft aircraft({});
+    EXPECT_TRUE(aircraft.handle({"Space", 1.0}));
+    EXPECT_TRUE(aircraft.handle({"Space", 0.0}));
+    ASSERT_TRUE(aircraft.hasAutopilot());
+    EXPECT_EQ(aircraft.headUpDisplay().back().says, "autopilot");
+    aircraft.update(1.0, ground);
+    EXPECT_TRUE(aircraft.handle({key, 1.0}));
+    EXPECT_FALSE(aircraft.hasAutopilot()) << key;
+    aircraft.handle({key, 0.0});
+    EXPECT_FALSE(aircraft.hasAutopilot()) << key;
+  }
+  Aircraft aircraft({});
+  aircraft.handle({"Space", 1.0});
+  aircraft.update(10.0, ground);
+  aircraft.handle({"Space", 1.0});
+  aircraft.update(3.0, ground);
+  const double heading = aircraft.heading();
+  aircraft.update(3.0, ground);
+  EXPECT_NEAR(aircraft.heading(), heading, 1e-3) << "what the autopilot did is not held";
+}
+
 }  // namespace
 }  // namespace teren
