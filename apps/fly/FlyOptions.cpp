@@ -1,7 +1,10 @@
 #include "apps/fly/FlyOptions.h"
 
 #include <algorithm>
+#include <string>
 #include <thread>
+
+#include "teren/Parameter.h"
 
 #include "apps/fly/Aircraft.h"
 #include "apps/options/CommandLine.h"
@@ -11,6 +14,7 @@ namespace {
 
 constexpr int kMinCap = EngineOptions::kLeastCap >> 20U, kMaxCap = 1 << 20;  // [MiB]
 constexpr int kMostByDefault = 4;
+const std::string kAutopilotDoc = "the aircraft flies by itself, until you steer";
 
 Result<double> readNumber(const CLI::Option& option, double otherwise, double min, double max) {
   if (option.count() == 0) return otherwise;
@@ -24,6 +28,13 @@ Result<int> readWhole(const CLI::Option& option, int otherwise, int min, int max
   return static_cast<int>(*value);
 }
 
+/// An option of a view of one level, and what goes where only the other one is given.
+const CLI::Option* addUniform(CLI::App& application, const char* name, const char* type, const char* does,
+                              int otherwise) {
+  const std::string doc = std::string(does) + " [" + std::to_string(otherwise) + "]";
+  return application.add_option(name, doc)->type_name(type);
+}
+
 }  // namespace
 
 int FlyOptions::defaultWorkers() noexcept {
@@ -32,14 +43,17 @@ int FlyOptions::defaultWorkers() noexcept {
 }
 
 FlyCommandLine::FlyCommandLine(CLI::App& application)
-    : viewDistance_(addViewDistance(application,
-                                    "metres of land to draw in every direction at least; sets --radius, but "
-                                    "with --pixel-error [2560]")),
-      pixelError_(addPixelError(application)),
-      viewLevel_(
-          application.add_option("--view-level", "level of the land, 0 is finest [3]")->type_name("L")),
-      radius_(application.add_option("--radius", "nodes to draw in every direction, 1 to 64 [5]")
-                  ->type_name("R")),
+    : viewDistance_(addViewDistance(
+          application,
+          "metres of land to draw in every direction [" + numberText(kFlyingDetail.distance) +
+              ", less in a world without coarse layers]; with --view-level, at least, in place of "
+              "--radius")),
+      pixelError_(addPixelError(application, "[" + numberText(kFlyingDetail.pixelError) + "]")),
+      viewLevel_(addUniform(application, "--view-level", "L",
+                            "draws the land in one level, whatever its error; 0 is finest",
+                            kFlyingView.level)),
+      radius_(addUniform(application, "--radius", "R",
+                         "draws so many nodes of one level in every direction, 1 to 64", kFlyingView.radius)),
       workers_(application
                    .add_option("--workers",
                                "threads that make the landscape, 0 to 64 [one less than the processor runs "
@@ -49,15 +63,13 @@ FlyCommandLine::FlyCommandLine(CLI::App& application)
                ->type_name("N")),
       speed_(application.add_option("--speed", "at the start, metres per second, 5 to 600 [60]")
                  ->type_name("V")),
+      autopilot_(application.add_flag("--autopilot", kAutopilotDoc)->disable_flag_override()),
       window_(application, "fly this long, then end") {}
 
 Result<ViewSettings> FlyCommandLine::view(const World& world) const {
-  if (pixelError_->count() > 0) {
-    if (viewLevel_->count() + radius_->count() > 0) {
-      return Error{"--pixel-error excludes --view-level and --radius"};
-    }
-    return viewWithin(*pixelError_, *viewDistance_);
-  }
+  const bool isUniform = viewLevel_->count() + radius_->count() > 0;
+  if (!isUniform) return viewWithin(*pixelError_, *viewDistance_, flyingDetail(world));
+  if (pixelError_->count() > 0) return Error{"--pixel-error excludes --view-level and --radius"};
   ViewSettings view = kFlyingView;
   const Result<int> level =
       readWhole(*viewLevel_, std::min(view.level, world.topLevel()), 0, world.topLevel());
@@ -87,6 +99,7 @@ Result<FlyOptions> FlyCommandLine::resolve(const World& world) const {
   const Result<double> speed = readNumber(*speed_, options.speed, Aircraft::kMinSpeed, Aircraft::kMaxSpeed);
   if (!speed) return speed.error();
   options.speed = *speed;
+  options.autopilot = autopilot_->count() > 0;
   const Result<WindowOptions> window = window_.resolve();
   if (!window) return window.error();
   options.window = *window;

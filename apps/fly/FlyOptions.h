@@ -13,8 +13,9 @@ namespace teren {
 
 /// What remains once the world is known (see options/WorldOptions.h).
 struct FlyOptions {
-  EngineOptions engine{.view = kFlyingView, .workers = defaultWorkers()};
-  double speed = 60.0;  ///< [m/s]
+  EngineOptions engine{.view = {.detail = kFlyingDetail}, .workers = defaultWorkers()};
+  double speed = 60.0;     ///< [m/s]
+  bool autopilot = false;  ///< whether it flies the first aircraft from the start
   WindowOptions window;
 
   /// One less than the processor runs at a time, 0 ... 4: the picture needs the other one.
@@ -39,6 +40,7 @@ class FlyCommandLine {
   const CLI::Option* workers_;
   const CLI::Option* cap_;
   const CLI::Option* speed_;
+  const CLI::Option* autopilot_;
   WindowCommandLine window_;
 };
 

@@ -54,6 +54,7 @@ Result<void> fly(NewLand land, const FlyWindow::Remake& remake) {
       Position::fromMetres(kStartEast, kStartNorth, land.engine->world().pitch());
   if (position) start.position = *position;
   Flight flight(std::move(land.engine), start);
+  flight.aircraft().front()->setAutopilot(options.autopilot);
   FlyWindow window(flight, daylight, options.window.size, remake);
   if (!settle(window)) return {};
   using Duration = FlyWindow::Clock::duration;

@@ -1,30 +1,37 @@
 #include "apps/options/ViewOptions.h"
 
+#include <algorithm>
 #include <string>
 
 #include "apps/options/CommandLine.h"
 
 namespace teren {
 
+DetailSettings flyingDetail(const World& world) noexcept {
+  DetailSettings detail = kFlyingDetail;
+  detail.distance = std::min(detail.distance, ViewSettings{world.topLevel(), kFlyingNodes}.reach(world));
+  return detail;
+}
+
 const CLI::Option* addViewDistance(CLI::App& application, const std::string& doc) {
   return application.add_option("--view-distance", doc)->type_name("M");
 }
 
-const CLI::Option* addPixelError(CLI::App& application) {
-  return application
-      .add_option(
-          "--pixel-error",
-          "pixels that the land may be off by on the screen, 0.1 to 100: finer near by, coarser far away, "
-          "10000 m of it unless --view-distance says otherwise")
-      ->type_name("PX");
+const CLI::Option* addPixelError(CLI::App& application, const std::string& doc) {
+  const std::string whole =
+      "pixels that the land may be off by on the screen, 0.1 to 100: finer near by, coarser far away " + doc;
+  return application.add_option("--pixel-error", whole)->type_name("PX");
 }
 
-Result<ViewSettings> viewWithin(const CLI::Option& pixelError, const CLI::Option& viewDistance) {
-  DetailSettings detail{.distance = kDetailDistance};
-  const Result<double> pixels = numberArgument(pixelError.get_name(), argument(pixelError),
-                                               DetailSettings::kLeastError, DetailSettings::kMostError);
-  if (!pixels) return pixels.error();
-  detail.pixelError = *pixels;
+Result<ViewSettings> viewWithin(const CLI::Option& pixelError, const CLI::Option& viewDistance,
+                                const DetailSettings& otherwise) {
+  DetailSettings detail = otherwise;
+  if (pixelError.count() > 0) {
+    const Result<double> pixels = numberArgument(pixelError.get_name(), argument(pixelError),
+                                                 DetailSettings::kLeastError, DetailSettings::kMostError);
+    if (!pixels) return pixels.error();
+    detail.pixelError = *pixels;
+  }
   if (viewDistance.count() > 0) {
     const Result<double> distance =
         numberArgument(viewDistance.get_name(), argument(viewDistance), 1.0, DetailSettings::kMostDistance);

@@ -15,16 +15,28 @@ namespace teren {
 /// fifth more of a frame.
 inline constexpr ViewSettings kFlyingView{.level = 3, .radius = 5};
 
+/// What teren-fly begins with: detail by error. This is the one place that says how coarse the land is by
+/// default; `teren report` has the figures that justify it.
+inline constexpr DetailSettings kFlyingDetail{.pixelError = 16.0, .distance = 20'000.0};
+
+/// The same for a world: not farther than so many of its coarsest nodes, since land without coarse layers
+/// cannot become coarser far away.
+inline constexpr int kFlyingNodes = 8;
+DetailSettings flyingDetail(const World& world) noexcept;
+
 /// How far the land is drawn where only its pixel error is said.
 inline constexpr double kDetailDistance = 10'000.0;  // [m]
 
-/// --view-distance and --pixel-error, which belong to an application or subcommand.
+/// --view-distance and --pixel-error, which belong to an application or subcommand. `doc` says what goes
+/// without it.
 const CLI::Option* addViewDistance(CLI::App& application, const std::string& doc);
-const CLI::Option* addPixelError(CLI::App& application);
+const CLI::Option* addPixelError(
+    CLI::App& application,
+    const std::string& doc = "[none; with it 10000 m of land unless --view-distance says otherwise]");
 
-/// After parsing, where --pixel-error was given: detail by error, as far as the distance typed. Errors as
-/// below.
-Result<ViewSettings> viewWithin(const CLI::Option& pixelError, const CLI::Option& viewDistance);
+/// After parsing: detail by error, with what was typed in place of what is in `otherwise`. Errors as below.
+Result<ViewSettings> viewWithin(const CLI::Option& pixelError, const CLI::Option& viewDistance,
+                                const DetailSettings& otherwise = {.distance = kDetailDistance});
 
 /// After parsing: the view with the smallest radius at its level that reaches the distance typed; `view`
 /// itself where none was. Errors are of the kind kWrongInput: no number, or farther than the level reaches.

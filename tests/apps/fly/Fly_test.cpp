@@ -176,6 +176,7 @@ TEST_F(Fly, RefusesAWrongCommandLineInOneSentence) {
                                 "--view-distance 500 --radius 3",
                                 "--screenshot ''",
                                 "--stats=",
+                                "--autopilot=7",
                                 "--pixel-error 0",
                                 "--pixel-error nan",
                                 "--pixel-error 101",
