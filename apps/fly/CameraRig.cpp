@@ -49,7 +49,11 @@ void CameraRig::look(double right, double up) {
 }
 
 void CameraRig::zoom(double steps) {
-  fieldOfView_ = std::clamp(fieldOfView_ * std::pow(kZoomStep, steps), kMinFieldOfView, kMaxFieldOfView);
+  fieldOfView_ = zoomed(fieldOfView_, steps);
+}
+
+double CameraRig::zoomed(double fieldOfView, double steps) {
+  return std::clamp(fieldOfView * std::pow(kZoomStep, steps), kMinFieldOfView, kMaxFieldOfView);
 }
 
 void CameraRig::reset() {

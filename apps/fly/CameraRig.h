@@ -45,6 +45,8 @@ class CameraRig {
   void look(double right, double up);
   /// Narrows the field of view by a tenth per step; negative steps widen it.
   void zoom(double steps);
+  /// What that makes of a field of view.
+  static double zoomed(double fieldOfView, double steps);
   /// Offset, look and zoom as they were at the beginning; first or third person stays.
   void reset();
   void togglePerson() noexcept;

@@ -74,7 +74,16 @@ void Flight::advance(double dt) {
 void Flight::goOverTo(std::unique_ptr<Engine> next) {
   assert(next && next->objectCount() == 0 && next->world().pitch() == engine_->world().pitch());
   next_ = std::move(next);
+  const std::optional<DetailSettings>& detail = engine_->options().view.detail;
+  // What the next one refuses, for another world perhaps, it does not get: it was made with good ones.
+  if (detail && next_->options().view.detail) static_cast<void>(next_->setDetail(*detail));
   for (const Aircraft* aircraft : aircraft_) next_->add(std::make_unique<Scout>(*aircraft));
+}
+
+Result<void> Flight::setDetail(const DetailSettings& detail) {
+  if (!engine_->options().view.detail) return {};
+  if (next_ && next_->options().view.detail) static_cast<void>(next_->setDetail(detail));
+  return engine_->setDetail(detail);
 }
 
 // Fast flight leaves always some land to be made; the next may lack as much as the present one.

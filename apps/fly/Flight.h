@@ -40,6 +40,9 @@ class Flight {
   /// How often it has gone over to another engine.
   int changes() const noexcept { return changes_; }
 
+  /// Engine::setDetail, of the next engine too. Nothing where the view is of one level.
+  Result<void> setDetail(const DetailSettings& detail);
+
   /// Begins a frame: moves all by dt [s], brought between 0 and kLongestStep, and lets the engine work for as
   /// long as the frames before have left it.
   void advance(double dt);

@@ -1,12 +1,14 @@
 #include "apps/fly/FlyScene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
 #include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/nodes/SoCallback.h>
 #include <Inventor/nodes/SoDirectionalLight.h>
+#include <Inventor/nodes/SoDrawStyle.h>
 #include <Inventor/nodes/SoEnvironment.h>
 #include <Inventor/nodes/SoPerspectiveCamera.h>
 #include <Inventor/nodes/SoSeparator.h>
@@ -22,6 +24,14 @@ constexpr float kNearest = 0.5F, kFarthest = 100e3F;
 constexpr float kOrdinaryNearest = 1.0F, kOrdinaryFarthest = 500.0F;  // the sky fits in
 constexpr float kFarthestFactor = 1.6F;  // the far one in view distances at least: to the square's corners
 
+constexpr float kDry = -1e6F;  // [m] a water level of SoTerrain's for no water
+
+/// The camera of Inventor looks down its -z axis with y up; an object's rest looks north with z up.
+SbRotation turnOf(const Pose& pose) {
+  const SbRotation upright(SbVec3f(1.0F, 0.0F, 0.0F), std::numbers::pi_v<float> / 2.0F);
+  return upright * rotationOf({pose.heading, pose.pitch, pose.roll});
+}
+
 SoSeparator* uncached() {
   auto* separator = new SoSeparator;
   separator->renderCaching = SoSeparator::OFF;
@@ -32,7 +42,12 @@ SoSeparator* uncached() {
 }  // namespace
 
 FlyScene::FlyScene(const Daylight& light, Engine& engine)
-    : root_(uncached()), camera_(new SoPerspectiveCamera), terrain_(new SoTerrain), sky_(light) {
+    : root_(uncached()),
+      camera_(new SoPerspectiveCamera),
+      terrain_(new SoTerrain),
+      style_(new SoDrawStyle),
+      waterLevel_(light.waterLevel),
+      sky_(light) {
   root_->ref();
   root_->addChild(camera_);
   root_->addChild(sky_.node());
@@ -50,12 +65,14 @@ FlyScene::FlyScene(const Daylight& light, Engine& engine)
   terrain_->logarithmicDepth = TRUE;
   setViewDistance(engine.options().view.reach(engine.world()));
   SoSeparator* land = uncached();
+  land->addChild(style_);
   land->addChild(terrain_);
   root_->addChild(land);
   auto* drawn = new SoCallback;
   drawn->setCallback(landIsDrawn, this);
   root_->addChild(drawn);
   root_->addChild(depth_.node());
+  depth_.node()->addChild(sight_.node());
   for (std::size_t index = 0; index < engine.objectCount(); ++index) {
     models_.push_back(std::make_unique<ObjectModel>(engine.object(index).model()));
     depth_.node()->addChild(models_.back()->node());
@@ -67,7 +84,34 @@ FlyScene::~FlyScene() {
   root_->unref();
 }
 
+void FlyScene::setTint(std::function<SbColor(const Mesh&)> tint) {
+  terrain_->setTint(std::move(tint));
+}
+
+void FlyScene::setWires(bool wires) {
+  style_->style = wires ? SoDrawStyle::LINES : SoDrawStyle::FILLED;
+  terrain_->waterLevel = wires ? kDry : waterLevel_;
+}
+
+void FlyScene::freeze(const Viewpoint& eye, double aspect) {
+  frozen_ = Frozen{eye, aspect};
+}
+
+void FlyScene::thaw() {
+  frozen_.reset();
+  sight_.hide();
+}
+
+double FlyScene::viewDistance(const Engine& engine, const Pose& eye) const {
+  const double reach = engine.options().view.reach(engine.world());
+  if (!frozen_) return reach;
+  const Pose& there = frozen_->eye.pose;
+  const Offset away = offset(there.position, eye.position, engine.world().pitch());
+  return reach + std::hypot(away.east, away.north, eye.height - there.height);
+}
+
 void FlyScene::setViewDistance(double viewDistance) {
+  if (terrain_->viewDistance.getValue() == static_cast<float>(viewDistance)) return;
   terrain_->viewDistance = static_cast<float>(viewDistance);
   setPlanes();
 }
@@ -89,9 +133,8 @@ void FlyScene::setPlanes() {
 }
 
 // Snapshots of two engines have nothing in common.
-void FlyScene::showOtherLand(const Engine& engine) {
+void FlyScene::showOtherLand() {
   terrain_->setScene(std::make_shared<const Scene>());
-  setViewDistance(engine.options().view.reach(engine.world()));
 }
 
 SbVec3f FlyScene::place(const Position& position, double height, double pitch) const {
@@ -109,24 +152,28 @@ void FlyScene::show(Flight& flight, const Viewpoint& view, CameraRig::Person per
   const double pitch = flight.engine().world().pitch();
   const Pose& eye = view.pose;
   if (zero_.follow(eye.position, eye.height, pitch)) moveZero(pitch);
-  if (std::exchange(changes_, flight.changes()) != flight.changes()) showOtherLand(flight.engine());
+  if (std::exchange(changes_, flight.changes()) != flight.changes()) showOtherLand();
   terrain_->setScene(flight.engine().scene());
+  setViewDistance(viewDistance(flight.engine(), eye));
   setPlanes();
 
-  // The camera of Inventor looks down its -z axis with y up; an object's rest looks north with z up.
-  const SbRotation upright(SbVec3f(1.0F, 0.0F, 0.0F), std::numbers::pi_v<float> / 2.0F);
   const SbVec3f place = this->place(eye.position, eye.height, pitch);
   camera_->position = place;
-  camera_->orientation = upright * rotationOf({eye.heading, eye.pitch, eye.roll});
+  camera_->orientation = turnOf(eye);
   camera_->heightAngle = static_cast<float>(view.fieldOfView);
   sky_.moveTo(place);
 
   for (std::size_t index = 0; index < models_.size(); ++index) {
     const Object& object = flight.engine().object(index);
     const Motion motion = object.motion();
-    models_[index]->setVisible(person == CameraRig::Person::third || index != flight.active());
+    models_[index]->setVisible(frozen_ || person == CameraRig::Person::third || index != flight.active());
     models_[index]->show(this->place(motion.position, motion.height, pitch), object.attitude(), dt);
   }
+  if (!frozen_) return;
+  const Pose& there = frozen_->eye.pose;
+  sight_.show(turnOf(there), frozen_->eye.fieldOfView, frozen_->aspect,
+              flight.engine().options().view.reach(flight.engine().world()));
+  sight_.moveTo(this->place(there.position, there.height, pitch));
 }
 
 std::size_t FlyScene::bufferBytes() const {

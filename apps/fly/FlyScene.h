@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "apps/fly/CameraRig.h"
@@ -10,10 +12,12 @@
 #include "apps/fly/DepthShader.h"
 #include "apps/fly/Flight.h"
 #include "apps/fly/ObjectModel.h"
+#include "apps/fly/SightLines.h"
 #include "apps/fly/SkyDome.h"
 #include "coin/SceneZero.h"
 
 class SoAction;
+class SoDrawStyle;
 class SoPerspectiveCamera;
 class SoSeparator;
 class SoTerrain;
@@ -34,6 +38,16 @@ class FlyScene {
 
   SoSeparator* node() const noexcept { return root_; }
 
+  /// How the land looks from the next picture on: each mesh in a colour of its own (empty: as land looks),
+  /// and as the edges of its triangles, without its water.
+  void setTint(std::function<SbColor(const Mesh&)> tint);
+  void setWires(bool wires);
+
+  /// Until thawed, draws an eye and what it sees in a picture of this aspect (width by height) as lines, all
+  /// objects, and the land as far as it can be seen through the haze from there.
+  void freeze(const Viewpoint& eye, double aspect);
+  void thaw();
+
   /// Shows the flight as it is now, seen from `view`; in first person the object one sits in is left out.
   void show(Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt);
 
@@ -41,18 +55,28 @@ class FlyScene {
 
  private:
   SbVec3f place(const Position& position, double height, double pitch) const;
+  /// [m] The end of the land, seen from there.
+  double viewDistance(const Engine& engine, const Pose& eye) const;
   void moveZero(double pitch);
   void setViewDistance(double distance);
   void setPlanes();
   static void landIsDrawn(void* scene, SoAction* action);
-  void showOtherLand(const Engine& engine);
+  void showOtherLand();
 
   SoSeparator* root_;  // referenced
   SoPerspectiveCamera* camera_;
   SoTerrain* terrain_;
+  SoDrawStyle* style_;  // of the land
+  float waterLevel_;    // [m]
   SkyDome sky_;
   DepthShader depth_;
   std::vector<std::unique_ptr<ObjectModel>> models_;
+  SightLines sight_;
+  struct Frozen {
+    Viewpoint eye;
+    double aspect = 1.0;
+  };
+  std::optional<Frozen> frozen_;
   SceneZero zero_;
   int changes_ = 0;  // of the flight's engine, seen so far
 };

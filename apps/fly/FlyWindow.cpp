@@ -20,12 +20,9 @@
 namespace teren {
 namespace {
 
-constexpr double kRadiansPerPixel = 0.005;
-constexpr double kWheelNotch = 120.0;  // in Qt's eighths of a degree
 constexpr std::chrono::milliseconds kBetweenFigures(150);
 constexpr std::chrono::milliseconds kBetweenHiddenFrames(50);
 constexpr std::chrono::milliseconds kBetweenSettlingPictures(250);
-constexpr std::chrono::seconds kSentenceTime(4);
 constexpr std::size_t kFramesShown = 30;  // that the times on the display look back
 
 double seconds(FlyWindow::Clock::duration duration) {
@@ -47,7 +44,21 @@ FlyWindow::FlyWindow(Flight& flight, const Daylight& light, QSize size, Remake r
   setWindowTitle(QStringLiteral("Teren"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(area_->getWidget());
+  layout->setSpacing(0);
+  layout->addWidget(area_->getWidget(), 1);
+  panel_ =
+      new DetailPanel({.setDistance =
+                           [this](double distance) {
+                             chooseDetail([distance](DetailSettings& detail) { detail.distance = distance; });
+                           },
+                       .setPixelError =
+                           [this](double error) {
+                             chooseDetail([error](DetailSettings& detail) { detail.pixelError = error; });
+                           }},
+                      this);
+  panel_->hide();
+  panel_->showDetail(flight.engine().options().view.detail);
+  layout->addWidget(panel_);
   area_->setBackgroundColor(light.haze);
   area_->setSceneGraph(scene_.node());
   area_->setOverlay([this](QSize pixels) { display_.draw(pixels); });
@@ -99,14 +110,29 @@ void FlyWindow::tick() {
   const double dt = frameStep(now - lastTick_);
   lastTick_ = now;
   const bool last = isLastFrame(now);
-  flight_.advance(paused_ ? 0.0 : dt);
-  rig_.update(dt, keys_.cameraMoves(), poseOf(flight_.activeObject()));
-  updateScene(paused_ ? 0.0 : dt);
+  const double step = paused_ || frozen_ ? 0.0 : dt;
+  flight_.advance(step);
+  if (frozen_) {
+    frozen_->camera.update(dt, keys_.cameraMoves(), flight_.engine().ground(),
+                           static_cast<double>(daylight_.waterLevel));
+  } else {
+    rig_.update(dt, keys_.cameraMoves(), poseOf(flight_.activeObject()));
+  }
+  updateScene(step);
   if (last || now - lastFigures_ > kBetweenFigures) {
     showFigures();
     tellMessages();
     lastFigures_ = now;
   }
+  present(last);
+  timer_.setInterval(isMinimized() ? kBetweenHiddenFrames : std::chrono::milliseconds(0));
+  if (last) {
+    timer_.stop();
+    QApplication::exit(0);
+  }
+}
+
+void FlyWindow::present(bool last) {
   if (last || pictureWanted_) {
     const QImage picture = area_->renderAndRead();
     if (pictureWanted_) keepPicture(picture);
@@ -116,24 +142,23 @@ void FlyWindow::tick() {
   }
   flight_.frameDone();
   const Clock::time_point presented = Clock::now();
-  frameTimes_.add(1e3 * seconds(presented - lastPresented_));
+  const double milliseconds = 1e3 * seconds(presented - lastPresented_);
+  frameTimes_.add(milliseconds);
+  graph_.add(milliseconds, 1e-3 * flight_.engineTimes().latest(1).p50);
   lastPresented_ = presented;
-  timer_.setInterval(isMinimized() ? kBetweenHiddenFrames : std::chrono::milliseconds(0));
-  if (last) {
-    timer_.stop();
-    QApplication::exit(0);
-  }
 }
 
 Viewpoint FlyWindow::viewpoint() const {
+  if (frozen_) return frozen_->camera.viewpoint();
   return rig_.viewpoint(poseOf(flight_.activeObject()), flight_.engine().ground(),
                         static_cast<double>(daylight_.waterLevel));
 }
 
 void FlyWindow::updateScene(double dt) {
   const Viewpoint view = viewpoint();
+  if (!frozen_) fitDetail(view.fieldOfView);
+  if (colours_ == LandColours::errors) tintEye_ = eye();
   scene_.show(flight_, view, rig_.person(), dt);
-  fitDetail(view.fieldOfView);
   flight_.engine().setRendererBytes(scene_.bufferBytes());
 }
 
@@ -150,11 +175,17 @@ std::size_t FlyWindow::bytes() const {
   return flight_.engine().figures().bytes;
 }
 
+Eye FlyWindow::eye() const {
+  const Viewpoint view = frozen_ ? frozen_->eye : viewpoint();
+  return {view.pose.position, view.pose.height, lensPixels(area_->pixels().height(), view.fieldOfView)};
+}
+
 PixelError FlyWindow::pixelError() const {
-  const Viewpoint view = viewpoint();
-  const int rows = area_->pixels().height();
-  const Eye eye{view.pose.position, view.pose.height, lensPixels(rows, view.fieldOfView)};
-  return teren::pixelError(flight_.engine().world(), *flight_.engine().scene(), eye);
+  return teren::pixelError(flight_.engine().world(), *flight_.engine().scene(), eye());
+}
+
+double FlyWindow::wantedPixelError() const {
+  return flight_.engine().options().view.detail.value_or(kFlyingDetail).pixelError;
 }
 
 void FlyWindow::showFigures() {
@@ -169,7 +200,22 @@ void FlyWindow::showFigures() {
   figures.pixelError = pixelError();
   std::vector<DisplayLine> lines = flight_.activeObject().headUpDisplay();
   for (DisplayLine& line : costLines(figures)) lines.push_back(std::move(line));
+  if (frozen_) lines.push_back({"view", "frozen; F4 goes on"});
   display_.setLines(std::move(lines));
+  showLegend(engine);
+  display_.setGraph(graphShown_ ? &graph_ : nullptr);
+  panel_->showDetail(flight_.engine().options().view.detail);
+}
+
+void FlyWindow::showLegend(const EngineFigures& figures) {
+  switch (colours_) {
+    case LandColours::levels:
+      return display_.setLegend(levelLegend(figures.nodesAtLevel));
+    case LandColours::errors:
+      return display_.setLegend(errorLegend(wantedPixelError()));
+    default:
+      return display_.setLegend({});
+  }
 }
 
 // The active object's keys, then the program's.
@@ -177,147 +223,6 @@ void FlyWindow::showHelp() {
   std::vector<KeyHelp> help = flight_.activeObject().keys();
   help.insert(help.end(), KeyMap::help().begin(), KeyMap::help().end());
   display_.setHelp(help);
-}
-
-bool FlyWindow::eventFilter(QObject* watched, QEvent* event) {
-  switch (event->type()) {
-    case QEvent::KeyPress:
-    case QEvent::KeyRelease:
-      return keyEvent(*static_cast<const QKeyEvent*>(event));
-    case QEvent::MouseButtonPress:
-    case QEvent::MouseButtonRelease:
-    case QEvent::MouseMove:
-      return mouseEvent(*event);
-    case QEvent::Wheel:
-      rig_.zoom(static_cast<const QWheelEvent*>(event)->angleDelta().y() / kWheelNotch);
-      return true;
-    case QEvent::FocusOut:  // their release would go elsewhere
-      keys_.releaseAll();
-      flight_.engine().letGo();
-      dragFrom_.reset();
-      break;
-    default:
-      break;
-  }
-  return QWidget::eventFilter(watched, event);
-}
-
-bool FlyWindow::keyEvent(const QKeyEvent& event) {
-  const bool keypad = event.modifiers().testFlag(Qt::KeypadModifier);
-  const bool pressed = event.type() == QEvent::KeyPress;
-  const std::optional<Action> action = KeyMap::action(event.key(), keypad);
-  if (!action) {
-    const std::string name = KeyMap::name(event.key(), keypad);
-    return !name.empty() && (event.isAutoRepeat() || flight_.engine().handle({name, pressed ? 1.0 : 0.0}));
-  }
-  if (event.isAutoRepeat()) return true;
-  if (!pressed) {
-    keys_.release(event.key(), keypad);
-  } else if (isHeldAction(*action)) {
-    keys_.press(event.key(), keypad);
-  } else {
-    act(*action);
-  }
-  return true;
-}
-
-bool FlyWindow::mouseEvent(const QEvent& event) {
-  const auto& mouse = static_cast<const QMouseEvent&>(event);
-  if (event.type() == QEvent::MouseMove && dragFrom_) {
-    const QPoint moved = mouse.pos() - *dragFrom_;
-    rig_.look(kRadiansPerPixel * moved.x(), -kRadiansPerPixel * moved.y());
-    dragFrom_ = mouse.pos();
-  } else if (event.type() == QEvent::MouseButtonPress) {
-    dragFrom_ = mouse.pos();
-  } else if (event.type() == QEvent::MouseButtonRelease) {
-    dragFrom_.reset();
-  }
-  return true;
-}
-
-void FlyWindow::act(Action action) {
-  switch (action) {
-    case Action::cameraReset:
-      rig_.reset();
-      break;
-    case Action::switchPerson:
-      rig_.togglePerson();
-      break;
-    case Action::nextObject:
-      flight_.nextObject();
-      say("you fly " + flight_.activeObject().name());
-      showHelp();
-      break;
-    case Action::pause:
-      togglePause();
-      break;
-    case Action::help:
-      display_.toggleHelp();
-      break;
-    case Action::reload:
-      reload();
-      break;
-    case Action::fullScreen:
-      toggleFullScreen();
-      break;
-    case Action::screenshot:
-      pictureWanted_ = true;
-      break;
-    case Action::quit:
-      close();
-      break;
-    default:
-      break;  // held keys are read every frame
-  }
-}
-
-void FlyWindow::togglePause() {
-  paused_ = !paused_;
-  display_.setBanner(paused_ ? "paused" : "");
-}
-
-void FlyWindow::say(const std::string& sentence) {
-  lastSentence_ = sentence;
-  display_.say(sentence, kSentenceTime);
-}
-
-void FlyWindow::complain(const std::string& sentence) {
-  std::fprintf(stderr, "teren-fly: %s\n", sentence.c_str());
-  say(sentence);
-}
-
-void FlyWindow::reload() {
-  Result<NewLand> land = remake_();
-  if (!land) {
-    complain("the land stays as it is: " + land.error().message);
-    return;
-  }
-  std::string changed;
-  for (const std::string& id : land->changed) changed += (changed.empty() ? "" : ", ") + id;
-  say((changed.empty() ? "no plugin has changed" : "changed: " + changed) + "; making the land anew");
-  flight_.goOverTo(std::move(land->engine));
-}
-
-// What is wrong with plugins and objects, and that the land asked for is there.
-void FlyWindow::tellMessages() {
-  if (changes_ != flight_.changes()) say("this is the new land");
-  changes_ = flight_.changes();
-  for (const std::string& message : flight_.engine().takeMessages()) complain(message);
-}
-
-void FlyWindow::toggleFullScreen() {
-  if (isFullScreen()) {
-    showNormal();
-  } else {
-    showFullScreen();
-  }
-}
-
-void FlyWindow::keepPicture(const QImage& picture) {
-  pictureWanted_ = false;
-  const std::string file = newPictureName();
-  const Result<void> saved = savePicture(picture, file);
-  say(saved ? "screenshot: " + file : saved.error().message);
 }
 
 void FlyWindow::closeEvent(QCloseEvent* event) {

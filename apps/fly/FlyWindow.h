@@ -15,10 +15,14 @@
 
 #include "apps/fly/CameraRig.h"
 #include "apps/fly/Daylight.h"
+#include "apps/fly/DetailPanel.h"
 #include "apps/fly/Flight.h"
 #include "apps/fly/FlyScene.h"
+#include "apps/fly/FrameGraph.h"
+#include "apps/fly/FreeCamera.h"
 #include "apps/fly/HeadUpDisplay.h"
 #include "apps/fly/KeyMap.h"
+#include "apps/fly/LandColours.h"
 #include "apps/fly/LandSource.h"
 #include "apps/window/FrameStatistics.h"
 #include "apps/window/RenderArea.h"
@@ -51,8 +55,15 @@ class FlyWindow : public QWidget {
   /// [ms] between the moments at which successive frames were presented.
   const FrameStatistics& frameTimes() const noexcept { return frameTimes_; }
   std::size_t bytes() const;  ///< the engine's, the graphics buffers included
-  /// Of the land as it is seen now.
+  /// Of the land as it is seen now; while frozen, from the eye it was chosen for.
   PixelError pixelError() const;
+  /// Where the camera is.
+  Viewpoint viewpoint() const;
+  LandColours landColours() const noexcept { return colours_; }
+  bool showsWires() const noexcept { return wires_; }
+  bool showsGraph() const noexcept { return graphShown_; }
+  /// Whether all but the camera stands still.
+  bool isFrozen() const noexcept { return frozen_.has_value(); }
   /// The last sentence it has shown the person.
   const std::string& lastSentence() const noexcept { return lastSentence_; }
 
@@ -62,16 +73,26 @@ class FlyWindow : public QWidget {
 
  private:
   void tick();
+  void present(bool last);
   void updateScene(double dt);
-  Viewpoint viewpoint() const;
+  /// From where errors are seen.
+  Eye eye() const;
   /// Tells the engine the size of the picture, which detail by error depends on.
   void fitDetail(double fieldOfView);
   void showFigures();
+  void showLegend(const EngineFigures& figures);
   void showHelp();
+  double wantedPixelError() const;
   bool isLastFrame(Clock::time_point now) const;
   bool keyEvent(const QKeyEvent& event);
   bool mouseEvent(const QEvent& event);
+  void zoom(double steps);
   void act(Action action);
+  void actOnLook(Action action);
+  /// Changes what is drawn, by steps or to what a slider says.
+  void chooseDetail(const std::function<void(DetailSettings&)>& change);
+  void showColours();
+  void toggleFreeze();
   void togglePause();
   void reload();
   void tellMessages();
@@ -89,13 +110,23 @@ class FlyWindow : public QWidget {
   Remake remake_;
   QTimer timer_;
   RenderArea* area_;  // owned; goes before its widgets
+  DetailPanel* panel_;
   std::optional<QPoint> dragFrom_;
   bool paused_ = false, leaving_ = false, pictureWanted_ = false;
+  bool wires_ = false, graphShown_ = false;
+  LandColours colours_ = LandColours::natural;
+  Eye tintEye_;  // of the picture that is drawn
+  struct Frozen {
+    Viewpoint eye;
+    FreeCamera camera;
+  };
+  std::optional<Frozen> frozen_;
   std::optional<Clock::duration> duration_;
   Clock::time_point begin_{}, lastTick_{}, lastPresented_{}, lastFigures_{};
   int changes_ = 0;  // of the flight's engine, told so far
   std::string lastSentence_;
   FrameStatistics frameTimes_;
+  FrameGraph graph_;
   QImage lastPicture_;
 };
 

@@ -39,6 +39,16 @@ constexpr std::array kRows{
     Row{Qt::Key_Home, Where::anywhere, Action::cameraReset},
     Row{Qt::Key_C, Where::anywhere, Action::switchPerson},
     Row{Qt::Key_Tab, Where::anywhere, Action::nextObject},
+    Row{Qt::Key_Plus, Where::anywhere, Action::finer},
+    Row{Qt::Key_Equal, Where::anywhere, Action::finer},
+    Row{Qt::Key_Minus, Where::anywhere, Action::coarser},
+    Row{Qt::Key_Period, Where::elsewhere, Action::farther},
+    Row{Qt::Key_Comma, Where::elsewhere, Action::nearer},
+    Row{Qt::Key_F2, Where::anywhere, Action::detailPanel},
+    Row{Qt::Key_F3, Where::anywhere, Action::landColours},
+    Row{Qt::Key_F4, Where::anywhere, Action::freeze},
+    Row{Qt::Key_F6, Where::anywhere, Action::wires},
+    Row{Qt::Key_F7, Where::anywhere, Action::frameGraph},
     Row{Qt::Key_P, Where::anywhere, Action::pause},
     Row{Qt::Key_F1, Where::anywhere, Action::help},
     Row{Qt::Key_F5, Where::anywhere, Action::reload},
@@ -47,7 +57,14 @@ constexpr std::array kRows{
     Row{Qt::Key_Escape, Where::anywhere, Action::quit},
 };
 
-constexpr std::array<KeyHelp, 12> kHelp{{
+constexpr std::array kFrozenKeys{
+    std::pair{Qt::Key_Up, Qt::Key_I},     std::pair{Qt::Key_W, Qt::Key_I},
+    std::pair{Qt::Key_Down, Qt::Key_K},   std::pair{Qt::Key_S, Qt::Key_K},
+    std::pair{Qt::Key_Left, Qt::Key_J},   std::pair{Qt::Key_A, Qt::Key_J},
+    std::pair{Qt::Key_Right, Qt::Key_L},  std::pair{Qt::Key_D, Qt::Key_L},
+    std::pair{Qt::Key_R, Qt::Key_PageUp}, std::pair{Qt::Key_F, Qt::Key_PageDown}};
+
+constexpr std::array<KeyHelp, 19> kHelp{{
     {"mouse drag", "look around"},
     {"wheel", "zoom"},
     {"Num 8 2 4 6  or  I K J L", "camera forward, back, left, right"},
@@ -55,6 +72,13 @@ constexpr std::array<KeyHelp, 12> kHelp{{
     {"Num 5  or  Home", "camera back to its default"},
     {"C", "first or third person"},
     {"Tab", "next aircraft"},
+    {"+, -", "finer land, coarser land"},
+    {". (period), , (comma)", "see farther, less far"},
+    {"F2", "sliders for both"},
+    {"F3", "colours: as land looks, by level, by error"},
+    {"F4", "freeze what is drawn and fly off alone"},
+    {"F6", "land as wires"},
+    {"F7", "graph of the frames' times"},
     {"P", "pause"},
     {"F1", "this help"},
     {"F5", "make the land anew, with changed plugins"},
@@ -91,6 +115,12 @@ std::optional<Action> KeyMap::action(int key, bool keypad) noexcept {
   });
   if (row == kRows.end()) return std::nullopt;
   return row->action;
+}
+
+int KeyMap::whileFrozen(int key) noexcept {
+  const auto found = std::find_if(kFrozenKeys.begin(), kFrozenKeys.end(),
+                                  [key](const auto& each) { return each.first == key; });
+  return found == kFrozenKeys.end() ? key : int{found->second};
 }
 
 std::string KeyMap::name(int key, bool keypad) {

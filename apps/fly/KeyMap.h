@@ -26,6 +26,15 @@ enum class Action {
   cameraReset,
   switchPerson,
   nextObject,
+  finer,
+  coarser,
+  farther,
+  nearer,
+  detailPanel,
+  landColours,
+  freeze,
+  wires,
+  frameGraph,
   pause,
   help,
   reload,
@@ -42,6 +51,10 @@ class KeyMap {
   /// What a Qt key (Qt::Key) does. `keypad` tells whether it lies on the number pad, where it means the same
   /// with and without NumLock. Empty for a key without a meaning.
   static std::optional<Action> action(int key, bool keypad) noexcept;
+
+  /// The key of the camera that a key of an object stands for while objects stand still and the camera flies
+  /// alone; other keys are themselves.
+  static int whileFrozen(int key) noexcept;
 
   /// What an object calls a Qt key (InputEvent::name); empty for keys that have no name here.
   static std::string name(int key, bool keypad);

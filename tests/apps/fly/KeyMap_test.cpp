@@ -49,6 +49,17 @@ TEST(KeyMap, ReadsDigitsOnlyFromTheNumberPad) {
 TEST(KeyMap, HasAKeyForEveryOtherThing) {
   EXPECT_EQ(KeyMap::action(Qt::Key_C, false), Action::switchPerson);
   EXPECT_EQ(KeyMap::action(Qt::Key_Tab, false), Action::nextObject);
+  EXPECT_EQ(KeyMap::action(Qt::Key_Plus, false), Action::finer);
+  EXPECT_EQ(KeyMap::action(Qt::Key_Equal, false), Action::finer);  // plus without shift on some keyboards
+  EXPECT_EQ(KeyMap::action(Qt::Key_Minus, false), Action::coarser);
+  EXPECT_EQ(KeyMap::action(Qt::Key_Plus, true), Action::finer);
+  EXPECT_EQ(KeyMap::action(Qt::Key_Period, false), Action::farther);
+  EXPECT_EQ(KeyMap::action(Qt::Key_Comma, false), Action::nearer);
+  EXPECT_EQ(KeyMap::action(Qt::Key_F2, false), Action::detailPanel);
+  EXPECT_EQ(KeyMap::action(Qt::Key_F3, false), Action::landColours);
+  EXPECT_EQ(KeyMap::action(Qt::Key_F4, false), Action::freeze);
+  EXPECT_EQ(KeyMap::action(Qt::Key_F6, false), Action::wires);
+  EXPECT_EQ(KeyMap::action(Qt::Key_F7, false), Action::frameGraph);
   EXPECT_EQ(KeyMap::action(Qt::Key_P, false), Action::pause);
   EXPECT_EQ(KeyMap::action(Qt::Key_F1, false), Action::help);
   EXPECT_EQ(KeyMap::action(Qt::Key_F5, false), Action::reload);
@@ -63,10 +74,23 @@ TEST(KeyMap, ExplainsInItsHelpEveryKeyThatDoesSomething) {
     EXPECT_FALSE(line.does.empty());
     keys.append(line.keys).append(", ");
   }
-  for (const char* key : {"mouse", "wheel", "Num 8 2 4 6", "I K J L", "PageUp", "PageDown", "Num 5", "Home",
-                          "C,", "Tab", "P,", "F1,", "F5,", "F11", "F12", "Escape"}) {
+  for (const char* key :
+       {"mouse", "wheel", "Num 8 2 4 6", "I K J L", "PageUp", "PageDown", "Num 5",      "Home",
+        "C,",    "Tab",   "P,",          "F1,",     "F5,",    "+, -",     ". (period)", "(comma)",
+        "F2,",   "F3,",   "F4,",         "F6,",     "F7,",    "F11",      "F12",        "Escape"}) {
     EXPECT_NE(keys.find(key), std::string::npos) << key;
   }
+}
+
+TEST(KeyMap, LetsTheKeysThatSteerMoveACameraThatFliesAlone) {
+  const std::pair<int, Action> keys[] = {
+      {Qt::Key_Up, Action::cameraForward},  {Qt::Key_W, Action::cameraForward},
+      {Qt::Key_Down, Action::cameraBack},   {Qt::Key_S, Action::cameraBack},
+      {Qt::Key_Left, Action::cameraLeft},   {Qt::Key_A, Action::cameraLeft},
+      {Qt::Key_Right, Action::cameraRight}, {Qt::Key_D, Action::cameraRight},
+      {Qt::Key_R, Action::cameraUp},        {Qt::Key_F, Action::cameraDown},
+      {Qt::Key_I, Action::cameraForward},   {Qt::Key_F4, Action::freeze}};
+  for (const auto& [key, action] : keys) EXPECT_EQ(KeyMap::action(KeyMap::whileFrozen(key), false), action);
 }
 
 TEST(HeldKeys, MoveTheCameraWhileHeld) {
