@@ -72,7 +72,9 @@ class Way {
     std::size_t count = 0;
     for (const Cut::Index index : cut().byUrgency()) {
       const Cut::Node& node = cut()[index];
-      count += (node.isLeaf() ? store_.isDrawn(node.key) : store_.heights(node.key) != nullptr) ? 0U : 1U;
+      const bool isThere =
+          node.isLeaf() ? store_.isDrawn(node.key) : static_cast<bool>(store_.heights(node.key));
+      count += isThere ? 0U : 1U;
     }
     return count;
   }
