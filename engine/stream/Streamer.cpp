@@ -19,6 +19,7 @@ constexpr std::size_t kMostMapBytes = std::size_t{32} << 20;
 constexpr std::size_t kLeastMapBytes = std::size_t{1} << 20;
 constexpr std::size_t kSlack = std::size_t{256} << 10;  // what bytes() estimates, and what it leaves out
 constexpr std::size_t kMostGroundBuilds = 8;
+constexpr std::size_t kMostBuildsOfAWorker = 16;
 constexpr std::size_t kJoinBatch = 16;   // with workers; without, nodes are joined one by one
 constexpr std::size_t kRefinements = 4;  // of four nodes each, likewise
 
@@ -117,7 +118,9 @@ void Streamer::sizeBuilds() {
   // Tasks in flight may take an eighth of the cap, but there are two at least.
   const std::size_t most = std::max<std::size_t>(2, options_.capBytes / 8 / buildBytes_);
   mostGroundBuilds_ = std::min(kMostGroundBuilds, most / 2);
-  mostViewBuilds_ = std::clamp<std::size_t>(2 * static_cast<std::size_t>(options_.workers), 1, most / 2);
+  const auto workers = static_cast<std::size_t>(options_.workers);
+  mostViewBuilds_ = std::clamp<std::size_t>(kMostBuildsOfAWorker * workers, 1, most / 2);
+  viewBuilds_ = std::min(leastViewBuilds(), mostViewBuilds_);
 }
 
 void Streamer::setDetail(const DetailSettings& detail) {
@@ -376,10 +379,27 @@ bool Streamer::fits(const MemoryNeeds& needs, double share) const noexcept {
 void Streamer::work(Slice::Clock::time_point deadline) {
   meter_.beginFrame(deadline);
   lacksRoom_ = false;
+  feedWorkers();
   while (meter_.mayStart()) {
     collect();
     if (!meter_.step(housekeeping_)) continue;
     if (runner_.workers() > 0 || !meter_.mayStart() || !runner_.stepHere(meter_)) return;
+  }
+}
+
+std::size_t Streamer::leastViewBuilds() const noexcept {
+  return std::max<std::size_t>(1, 2 * static_cast<std::size_t>(options_.workers));
+}
+
+/// As many builds in flight as workers finish from one update to the next, and no more: an object may leap.
+void Streamer::feedWorkers() {
+  const bool wasFull = std::exchange(isFull_, false);
+  if (runner_.workers() == 0 || !wasFull) return;
+  const std::size_t left = runner_.unfinished();
+  if (left < static_cast<std::size_t>(runner_.workers())) {  // somebody had nothing to do
+    viewBuilds_ = std::min(2 * viewBuilds_, mostViewBuilds_);
+  } else if (2 * left > viewBuilds_ && viewBuilds_ > leastViewBuilds()) {
+    --viewBuilds_;
   }
 }
 
@@ -543,8 +563,8 @@ bool Streamer::startBuild() {
   if (!wish) return false;
   if (calibration_ == 0 && !hasRoomFor(buildBytes_)) calibrator_.reset();  // later
   if (!hasRoomFor(buildBytes_)) return false;
-  if (wish->isGround ? groundBuilds_ >= mostGroundBuilds_
-                     : builds_.size() - groundBuilds_ >= mostViewBuilds_) {
+  if (wish->isGround ? groundBuilds_ >= mostGroundBuilds_ : builds_.size() - groundBuilds_ >= viewBuilds_) {
+    isFull_ = true;
     return false;
   }
   const auto ticket = runner_.submit(

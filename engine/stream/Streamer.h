@@ -130,6 +130,8 @@ class Streamer {
   bool isWanted(const NodeKey& key) const;
 
   // Working
+  std::size_t leastViewBuilds() const noexcept;
+  void feedWorkers();
   bool tidyOne(const Slice& slice);
   void drop(const NodeKey& key);
   void collect();
@@ -149,6 +151,8 @@ class Streamer {
   std::size_t buildBytes_ = 0;    // of one node task
   std::size_t calibrationBytes_;  // of one calibration
   std::size_t mostViewBuilds_ = 0, mostGroundBuilds_ = 0;
+  std::size_t viewBuilds_ = 1;  // in flight at once, as far as workers need them
+  bool isFull_ = false;         // there were as many since the last update
   BaseMapStore maps_;
   NodeStore nodes_;
   SliceMeter meter_;

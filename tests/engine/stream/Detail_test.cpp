@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -223,6 +224,19 @@ TEST_P(Detail, HoldsTheCapAtEveryMomentAndPaysWithPixelError) {
   EXPECT_GT(flight.engine->figures().nodes, 100U);
   EXPECT_EQ(ample.engine->figures().pixelError, 6.0);
   EXPECT_LT(flight.engine->figures().nodes, ample.engine->figures().nodes);
+}
+
+TEST(DetailOfWorkers, IsGivenToThemAsFastAsTheyMakeIt) {
+  DetailFlight flight(1, {.pixelError = 15.0, .distance = 3000.0});
+  flight.engine->update(0.0, milliseconds(20));
+  const std::size_t wanted = flight.engine->figures().pending;
+  std::size_t updates = 1;
+  for (; flight.engine->figures().pending > 0 && updates < wanted; ++updates) {
+    while (flight.engine->figures().unfinishedTasks > 0) std::this_thread::yield();  // until it waits for more
+    flight.engine->update(0.0, milliseconds(20));
+  }
+  EXPECT_GT(wanted, 200U);
+  EXPECT_LT(updates, wanted / 3);
 }
 
 TEST_P(Detail, ComesAndGoesWithThePixelErrorTheDistanceAndThePicture) {
