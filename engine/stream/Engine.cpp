@@ -59,7 +59,9 @@ Result<void> check(const DetailSettings& detail) {
   return {};
 }
 
-Result<void> check(const EngineOptions& options, const World& world) {
+using Views = std::vector<std::optional<DetailSettings>>;
+
+Result<void> check(const EngineOptions& options, const World& world, const Views& others = {}) {
   if (options.view.detail) {
     if (Result<void> checked = check(*options.view.detail); !checked) return checked;
   } else if (options.view.level < 0 || options.view.level > world.topLevel()) {
@@ -73,7 +75,7 @@ Result<void> check(const EngineOptions& options, const World& world) {
     return outside("the engine's number of workers", options.workers,
                    "0 to " + std::to_string(EngineOptions::kMostWorkers));
   }
-  const std::size_t least = std::max(EngineOptions::kLeastCap, Streamer::leastCap(world, options));
+  const std::size_t least = std::max(EngineOptions::kLeastCap, Streamer::leastCap(world, options, others));
   if (options.capBytes < least) {
     return outside("the engine's cap", options.capBytes,
                    "at least " + std::to_string(least) + " bytes for this world and view");
@@ -104,6 +106,7 @@ struct Engine::State final : Ground {
   EngineOptions options;
   Streamer streamer;
   ObjectSet objects;
+  Views views;  // of objects by index
   std::shared_ptr<const Scene> scene;
   mutable std::shared_ptr<const SceneQuery> query;  // of `scene` once somebody has asked
   mutable int queryLevels = 0;                      // whose errors it tells were measured
@@ -195,9 +198,32 @@ Result<void> Engine::setDetail(const DetailSettings& detail) {
   if (state.options.view.detail == detail) return {};
   EngineOptions options = state.options;
   options.view.detail = detail;
-  if (Result<void> checked = check(options, *state.world); !checked) return checked;
+  if (Result<void> checked = check(options, *state.world, state.views); !checked) return checked;
   state.options = options;
   state.streamer.setDetail(detail);
+  return {};
+}
+Result<void> Engine::setView(std::size_t object, const std::optional<DetailSettings>& detail) {
+  State& state = *state_;
+  if (!state.options.view.detail) return Error{"the view is of one level, so there is one view only"};
+  if (object >= state.objects.size()) {
+    return outside("the object with a view", object,
+                   "less than " + std::to_string(state.objects.size()) + ", the number of objects");
+  }
+  Views views = state.views;
+  views.resize(state.objects.size());
+  views[object] = detail;
+  if (detail) {
+    if (Result<void> checked = check(*detail); !checked) return checked;
+    if (Result<void> checked = check(state.options, *state.world, views); !checked) return checked;
+  }
+  const auto isThere = [](const std::optional<DetailSettings>& view) { return view.has_value(); };
+  const auto count = 1 + static_cast<std::size_t>(std::count_if(views.begin(), views.end(), isThere));
+  if (count > kMostViews) {
+    return outside("the number of views", count, "at most " + std::to_string(kMostViews));
+  }
+  state.streamer.setViews(views);
+  state.views = std::move(views);
   return {};
 }
 void Engine::setRendererBytes(std::size_t bytes) noexcept {
@@ -208,6 +234,8 @@ Object& Engine::add(std::unique_ptr<Object> object) {
   return state_->objects.add(std::move(object));
 }
 std::vector<std::unique_ptr<Object>> Engine::takeObjects() {
+  state_->views.clear();
+  state_->streamer.setViews({});
   return state_->objects.release();
 }
 std::size_t Engine::objectCount() const noexcept {

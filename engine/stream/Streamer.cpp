@@ -43,21 +43,33 @@ int coarsestRoot(const World& world) {
   return std::min(world.topLevel(), mostLevelDifference(world.intervals()));
 }
 
-/// How many roots lie within a view's distance, at most.
-double mostRoots(const World& world, const DetailSettings& detail) {
-  const int level = Selection::rootLevelFor(detail.distance, world.pitch(), coarsestRoot(world));
-  const double across =
-      2.0 * std::ceil(Selection::kRootsStay * detail.distance / (world.pitch() * std::exp2(level))) + 1.0;
-  return across * across;
+/// Of all views together.
+int rootLevel(const World& world, std::span<const DetailSettings> views) {
+  int level = 0;
+  for (const DetailSettings& detail : views) {
+    level = std::max(level, Selection::rootLevelFor(detail.distance, world.pitch(), coarsestRoot(world)));
+  }
+  return level;
 }
 
-std::size_t buildBytes(const World& world, const ViewSettings& view) {
+/// How many roots lie within the views' distances, at most.
+double mostRoots(const World& world, std::span<const DetailSettings> views) {
+  const double side = world.pitch() * std::exp2(rootLevel(world, views));
+  double roots = 0.0;
+  for (const DetailSettings& detail : views) {
+    const double across = 2.0 * std::ceil(Selection::kRootsStay * detail.distance / side) + 1.0;
+    roots += across * across;
+  }
+  return roots;
+}
+
+/// Without views, of a uniform one of `level`.
+std::size_t buildBytes(const World& world, int level, std::span<const DetailSettings> views) {
   const std::size_t ground = NodeTask::mostBytes(world, 0);
-  if (!view.detail) return std::max(ground, NodeTask::mostBytes(world, view.level));
-  std::size_t most = NodeTask::mostBytes(world, 0, true);
-  for (int level = 1;
-       level <= Selection::rootLevelFor(view.detail->distance, world.pitch(), coarsestRoot(world)); ++level) {
-    most = std::max(most, NodeTask::mostBytes(world, level, true));
+  if (views.empty()) return std::max(ground, NodeTask::mostBytes(world, level));
+  std::size_t most = ground;
+  for (int above = rootLevel(world, views); above > 0; --above) {
+    most = std::max(most, NodeTask::mostBytes(world, above));
   }
   return most;
 }
@@ -114,7 +126,12 @@ Streamer::Streamer(const World& world, const EngineOptions& options)
 }
 
 void Streamer::sizeBuilds() {
-  buildBytes_ = buildBytes(world_, options_.view);
+  std::vector<DetailSettings> views;
+  if (options_.view.detail) views.push_back(*options_.view.detail);
+  for (const std::optional<DetailSettings>& view : views_) {
+    if (view) views.push_back(*view);
+  }
+  buildBytes_ = buildBytes(world_, options_.view.level, views);
   // Tasks in flight may take an eighth of the cap, but there are two at least.
   const std::size_t most = std::max<std::size_t>(2, options_.capBytes / 8 / buildBytes_);
   mostGroundBuilds_ = std::min(kMostGroundBuilds, most / 2);
@@ -129,14 +146,24 @@ void Streamer::setDetail(const DetailSettings& detail) {
   sizeBuilds();
 }
 
-std::size_t Streamer::leastCap(const World& world, const EngineOptions& options) {
+void Streamer::setViews(std::span<const std::optional<DetailSettings>> views) {
+  views_.assign(views.begin(), views.end());
+  sizeBuilds();
+}
+
+std::size_t Streamer::leastCap(const World& world, const EngineOptions& options,
+                               std::span<const std::optional<DetailSettings>> others) {
+  std::vector<DetailSettings> views;
+  if (options.view.detail) views.push_back(*options.view.detail);
+  for (const std::optional<DetailSettings>& view : others) {
+    if (view) views.push_back(*view);
+  }
   const NodeStore nodes(world.spacing(0), world.intervals(), options.view.detail.has_value());
-  const std::size_t build = buildBytes(world, options.view);
+  const std::size_t build = buildBytes(world, options.view.level, views);
   const std::size_t drawn = nodes.drawnBytes() + nodes.piecesBytes();
   constexpr std::size_t kGroundNodes = 9, kUniformNodes = 9;
-  const std::size_t view = options.view.detail
-                               ? static_cast<std::size_t>(mostRoots(world, *options.view.detail))
-                               : kUniformNodes + joinBatch(options.workers);
+  const std::size_t view = views.empty() ? kUniformNodes + joinBatch(options.workers)
+                                         : static_cast<std::size_t>(mostRoots(world, views));
   return kSlack + std::max(kLeastMapBytes, build) + 2 * build + kGroundNodes * nodes.heldBytes() +
          view * drawn;
 }
@@ -147,7 +174,7 @@ void Streamer::choose(std::span<const Motion> motions, std::size_t active) {
   if (motions.empty()) return;
   chooseGround(motions);
   if (selection_) {
-    chooseDetail(motions[active]);
+    chooseDetail(motions, active);
   } else {
     chooseUniform(motions[active].position);
   }
@@ -263,10 +290,16 @@ bool Streamer::isThere(const NodeKey& key) const {
 
 // ---- Detail by error
 
-void Streamer::chooseDetail(const Motion& eye) {
+void Streamer::chooseDetail(std::span<const Motion> motions, std::size_t active) {
   viewers_.clear();
-  viewers_.push_back({eye.position, eye.height, *options_.view.detail, kSecondsAhead * eye.east,
-                      kSecondsAhead * eye.north, kSecondsAhead * eye.up});
+  const auto look = [&](const Motion& eye, const DetailSettings& detail) {
+    viewers_.push_back({eye.position, eye.height, detail, kSecondsAhead * eye.east, kSecondsAhead * eye.north,
+                        kSecondsAhead * eye.up});
+  };
+  look(motions[active], *options_.view.detail);
+  for (std::size_t index = 0; index < std::min(motions.size(), views_.size()); ++index) {
+    if (index != active && views_[index]) look(motions[index], *views_[index]);
+  }
   if (isGroundAsBefore()) return;
   drops_.insert(drops_.end(), wanted_.begin(), wanted_.end());
   rank({});

@@ -46,7 +46,9 @@ class Streamer {
   Streamer(const World& world, const EngineOptions& options);
 
   /// What the cap must be at least for such a world and view: ground, one task in flight, a view of radius 1.
-  static std::size_t leastCap(const World& world, const EngineOptions& options);
+  /// `others`: views of further objects.
+  static std::size_t leastCap(const World& world, const EngineOptions& options,
+                              std::span<const std::optional<DetailSettings>> others = {});
 
   /// Says what is wanted around these objects: the ground at once, and all of a uniform view, where somebody
   /// has come to another node. Detail by error is chosen by work().
@@ -63,6 +65,8 @@ class Streamer {
 
   /// The view of detail by error; there must be one already.
   void setDetail(const DetailSettings& detail);
+  /// Of the objects by index, while they are not active; with detail by error only.
+  void setViews(std::span<const std::optional<DetailSettings>> views);
 
   const NodeStore& nodes() const noexcept { return nodes_; }
   const SliceMeter& meter() const noexcept { return meter_; }
@@ -115,7 +119,7 @@ class Streamer {
   bool isGround(std::size_t rank) const noexcept { return rank < groundCount_; }
 
   // Detail by error
-  void chooseDetail(const Motion& eye);
+  void chooseDetail(std::span<const Motion> motions, std::size_t active);
   bool isViewedAsBefore() const;
   bool isChosen() const;
   bool chooseSome(const Slice& slice);
@@ -162,6 +166,7 @@ class Streamer {
   std::optional<NodeKey> centre_;  // of a uniform view: its node under the active object
   // With detail by error:
   enum class Choosing { idle, selecting, turning };
+  std::vector<std::optional<DetailSettings>> views_;  // of objects that are not active
   std::optional<Selection> selection_;
   Refinement refinement_{nodes_};
   std::size_t borderBytes_ = 0, selectionBytes_ = 0;

@@ -35,7 +35,8 @@ struct DetailSettings {
   friend bool operator==(const DetailSettings&, const DetailSettings&) = default;
 };
 
-/// The view around the active object: (2 radius + 1)^2 nodes of one uniform level, or detail by error.
+/// The view around the active object (others: Engine::setView): (2 radius + 1)^2 nodes of one uniform level,
+/// or detail by error.
 struct ViewSettings {
   int level = 2;   ///< 0 ... World::topLevel(); a level more draws a quarter of the triangles per area
   int radius = 6;  ///< 1 ... kMostRadius nodes; triangles grow with its square
@@ -101,6 +102,13 @@ class Engine {
   std::vector<std::unique_ptr<Object>> takeObjects();
   std::size_t objectCount() const noexcept;
   Object& object(std::size_t index) noexcept;
+  /// Draws land around this object too while it is not the active one, as finely as `detail` says, from the
+  /// next update on; empty: no longer. All views together are one scene, which is as fine everywhere as any
+  /// of them wants there, and share the cap: under it the pixel errors of all grow alike. Only of an engine
+  /// made with detail by error; refuses what create() would refuse, an object that is not there, and more
+  /// than kMostViews. Costs what the nodes of the view cost. takeObjects() ends them all.
+  Result<void> setView(std::size_t object, const std::optional<DetailSettings>& detail);
+  static constexpr std::size_t kMostViews = 16;  ///< the active object's included
   std::size_t active() const noexcept;
   /// The object active before lets go of its keys.
   void setActive(std::size_t index) noexcept;

@@ -232,7 +232,8 @@ TEST(DetailOfWorkers, IsGivenToThemAsFastAsTheyMakeIt) {
   const std::size_t wanted = flight.engine->figures().pending;
   std::size_t updates = 1;
   for (; flight.engine->figures().pending > 0 && updates < wanted; ++updates) {
-    while (flight.engine->figures().unfinishedTasks > 0) std::this_thread::yield();  // until it waits for more
+    while (flight.engine->figures().unfinishedTasks > 0)
+      std::this_thread::yield();  // until it waits for more
     flight.engine->update(0.0, milliseconds(20));
   }
   EXPECT_GT(wanted, 200U);
@@ -270,6 +271,84 @@ TEST_P(Detail, LetsSnapshotsGoThatNobodyAsksAnyMore) {
     flight.engine->settle();
   }
   EXPECT_TRUE(asked.expired());
+}
+
+/// Two who fly, 30 km apart, with views of their own.
+struct TwoViews : DetailFlight {
+  explicit TwoViews(int workers) : DetailFlight(workers) {
+    other = static_cast<Puppet*>(&engine->add(std::make_unique<Puppet>()));
+    moveOther(0.0);
+    EXPECT_TRUE(engine->setView(1, DetailSettings{.pixelError = 60.0, .distance = 1500.0}).ok());
+  }
+  void moveOther(double north) {
+    other->place.position = *Position::fromMetres(30'000.0, north, world->pitch());
+    other->place.height = 60.0;
+  }
+  bool isDrawnAround(const Object& object, double away) const {
+    const Position at = object.motion().position;
+    return engine->drawnHeight(*at.movedBy(away, 0.0, world->pitch())).has_value() &&
+           engine->drawnHeight(*at.movedBy(0.0, -away, world->pitch())).has_value();
+  }
+  Puppet* other;
+};
+
+TEST_P(Detail, IsDrawnAroundEveryObjectWithAViewAsFinelyAsItsOwnWants) {
+  TwoViews flight(GetParam());
+  flight.engine->settle();
+  expectOneSurface(*flight.engine->scene(), flight.world->intervals());
+  EXPECT_TRUE(flight.isDrawnAround(*flight.puppet, 2900.0));
+  EXPECT_TRUE(flight.isDrawnAround(*flight.other, 1400.0));
+  const auto nodesAround = [&](const Object& object) {
+    std::size_t count = 0;
+    const std::int64_t middle = object.motion().position.i * flight.world->intervals();
+    for (const DrawnNode& node : nodesOf(*flight.engine->scene(), flight.world->intervals())) {
+      const std::int64_t side = std::int64_t{flight.world->intervals()} << node.level;
+      count += std::abs(node.i * side - middle) < 1000 ? 1U : 0U;
+    }
+    return count;
+  };
+  EXPECT_GT(nodesAround(*flight.puppet), nodesAround(*flight.other));
+  const std::size_t both = flight.engine->figures().nodes;
+  ASSERT_TRUE(flight.engine->setView(1, std::nullopt).ok());
+  flight.engine->settle();
+  EXPECT_FALSE(flight.isDrawnAround(*flight.other, 1400.0));
+  EXPECT_LT(flight.engine->figures().nodes, both);
+  flight.engine->setActive(1);
+  flight.engine->settle();
+  EXPECT_TRUE(flight.isDrawnAround(*flight.other, 2900.0)) << "the active one has the engine's";
+}
+
+TEST_P(Detail, FollowsSeveralObjectsAtOnce) {
+  TwoViews flight(GetParam());
+  flight.engine->settle();
+  for (int step = 1; step <= 300; ++step) {
+    flight.moveTo(10.0, 20.0 + 20.0 * step);
+    flight.moveOther(-15.0 * step);
+    flight.engine->update(1.0 / 60.0, milliseconds(3));
+  }
+  flight.engine->settle();
+  expectOneSurface(*flight.engine->scene(), flight.world->intervals());
+  EXPECT_TRUE(flight.isDrawnAround(*flight.puppet, 2900.0));
+  EXPECT_TRUE(flight.isDrawnAround(*flight.other, 1400.0));
+  EXPECT_FALSE(flight.engine->drawnHeight(*Position::fromMetres(30'000.0, 0.0, 64.0)).has_value());
+}
+
+TEST(DetailOfSeveral, IsRefusedWhereItCannotBe) {
+  DetailFlight flight(0);
+  const DetailSettings detail{.pixelError = 30.0, .distance = 1000.0};
+  EXPECT_FALSE(flight.engine->setView(1, detail).ok()) << "there is one object";
+  for (int count = 0; count < 16; ++count) flight.engine->add(std::make_unique<Puppet>());
+  EXPECT_FALSE(flight.engine->setView(1, DetailSettings{.pixelError = std::nan("")}).ok());
+  EXPECT_FALSE(flight.engine->setView(1, DetailSettings{.distance = 1e6}).ok()) << "beyond the cap";
+  for (std::size_t object = 1; object < Engine::kMostViews; ++object) {
+    EXPECT_TRUE(flight.engine->setView(object, detail).ok());
+  }
+  EXPECT_FALSE(flight.engine->setView(16, detail).ok());
+  EXPECT_TRUE(flight.engine->setView(15, std::nullopt).ok());
+  EXPECT_TRUE(flight.engine->setView(16, detail).ok());
+  auto uniform = Engine::create(flight.world, {});
+  (*uniform)->add(std::make_unique<Puppet>());
+  EXPECT_FALSE((*uniform)->setView(0, detail).ok());
 }
 
 TEST(DetailSettings, TakeThePlaceOfLevelAndRadius) {
