@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include <Inventor/SbVec3d.h>
 #include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/nodes/SoCallback.h>
 #include <Inventor/nodes/SoDirectionalLight.h>
@@ -154,6 +155,9 @@ void FlyScene::show(Flight& flight, const Viewpoint& view, CameraRig::Person per
   if (zero_.follow(eye.position, eye.height, pitch)) moveZero(pitch);
   if (std::exchange(changes_, flight.changes()) != flight.changes()) showOtherLand();
   terrain_->setScene(flight.engine().scene());
+  // The eye that detail is chosen for is the active object, wherever the camera is.
+  const Motion chosenFor = flight.activeObject().motion();
+  terrain_->setDetailEye(SbVec3d(this->place(chosenFor.position, chosenFor.height, pitch)));
   setViewDistance(viewDistance(flight.engine(), eye));
   setPlanes();
 

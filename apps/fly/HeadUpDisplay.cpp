@@ -17,9 +17,10 @@ namespace teren {
 namespace {
 
 constexpr int kTextPixels = 15;
-constexpr int kMargin = 14;   // between a panel and the picture's edge
-constexpr int kPadding = 12;  // between a panel's edge and its text
-constexpr int kGap = 18;      // between the two columns
+constexpr int kSmallLetters = 12, kSmallPicture = 900;  // the figures' in pictures less wide than this
+constexpr int kMargin = 14;                             // between a panel and the picture's edge
+constexpr int kPadding = 12;                            // between a panel's edge and its text
+constexpr int kGap = 18;                                // between the two columns
 
 const QColor kShade(12, 20, 32, 168);
 const QColor kDeepShade(12, 20, 32, 215);  // where much is to be read
@@ -215,7 +216,9 @@ void HeadUpDisplay::setLines(std::vector<DisplayLine> wanted) {
   std::vector<Line> lines;
   for (const auto& [what, says, warning] : lines_) lines.push_back({fromView(what), fromView(says), warning});
   // Never narrower than before, so that the panel does not tremble with its digits.
-  show(figures_, tableImage(QString(), lines, kShade, figures_.image.width()));
+  const int letters = pixels_.width() < kSmallPicture ? kSmallLetters : kTextPixels;
+  const int before = std::exchange(figureLetters_, letters) == letters ? figures_.image.width() : 0;
+  show(figures_, tableImage(QString(), lines, kShade, before, letters));
   if (hint_.image.isNull()) show(hint_, sentenceImage(QStringLiteral("F1  help"), kTextPixels - 2));
 }
 

@@ -61,7 +61,7 @@ class HeadUpDisplay {
   std::vector<DisplayLine> lines_;
   std::vector<LegendLine> legendLines_;
   std::vector<KeyHelp> helpLines_;
-  int helpLetters_ = 0;  // [px] of the image there is
+  int figureLetters_ = 0, helpLetters_ = 0;  // [px] of the images there are
   const FrameGraph* frames_ = nullptr;
   double framesScale_ = 0.0;  // [ms] upper end of the graph
   QSize pixels_{1280, 720};   // of the last picture
