@@ -139,17 +139,26 @@ TEST_F(FlyWindowDetail, IsChosenBySlidersThatShowWhatTheKeysChose) {
 }
 
 TEST_F(FlyWindowDetail, KeepsWhatWasChosenOnOtherLand) {
+  const auto goOver = [this] {
+    auto world = World::create(land(), *PluginRegistry::standard());
+    auto engine =
+        Engine::create(*world, {.view = {.detail = DetailSettings{.pixelError = 64.0, .distance = 1000.0}}});
+    flight_->goOverTo(std::move(*engine));
+  };
+  const auto arrive = [this](int changes) {
+    for (int turn = 0; turn < 600 && flight_->changes() < changes; ++turn) fly(1);
+    ASSERT_EQ(flight_->changes(), changes);
+  };
   for (int turn = 0; turn < 4; ++turn) tap(Qt::Key_Minus);
-  auto world = World::create(land(), *PluginRegistry::standard());
-  auto engine =
-      Engine::create(*world, {.view = {.detail = DetailSettings{.pixelError = 64.0, .distance = 1000.0}}});
-  ASSERT_TRUE(engine.ok());
-  flight_->goOverTo(std::move(*engine));
-  tap(Qt::Key_Comma);
-  for (int turn = 0; turn < 600 && flight_->changes() == 0; ++turn) fly(1);
-  ASSERT_EQ(flight_->changes(), 1);
+  goOver();
+  arrive(1);
   EXPECT_EQ(detail()->pixelError, 45.0);
-  EXPECT_EQ(detail()->distance, 2000.0);
+  EXPECT_EQ(detail()->distance, 3000.0);
+  goOver();
+  tap(Qt::Key_Comma);
+  arrive(2);
+  EXPECT_EQ(detail()->pixelError, 45.0);
+  EXPECT_EQ(detail()->distance, 2000.0) << "chosen while it was made";
 }
 
 TEST_F(FlyWindowKeys, SayThatLandOfOneLevelHasNoDetailToChoose) {
