@@ -179,7 +179,9 @@ void FlyWindow::showColours() {
       break;
     case LandColours::errors:
       scene_.setTint([this](const Mesh& mesh) {
-        return errorColour(teren::pixelError(flight_.engine().world(), mesh, tintEye_) / wantedPixelError());
+        const Engine& engine = flight_.engine();
+        const double error = teren::pixelError(engine.world(), mesh, tintEye_, engine.scene()->morph());
+        return errorColour(error / wantedPixelError());
       });
       break;
     default:

@@ -158,11 +158,14 @@ void main() {
 inline constexpr char kTintedFragmentShader[] = R"(
 uniform vec3 tint;
 uniform vec3 haze;
+uniform vec3 deep;  // what the water swallows
 varying vec4 light;
+varying vec4 more;
 varying float direct;
 
 void main() {
-  gl_FragColor = vec4(mix(tint * (0.45 + 0.55 * direct), haze, 0.4 * light.a), 1.0);
+  vec3 seen = mix(tint * (0.45 + 0.55 * direct), haze, 0.4 * light.a);
+  gl_FragColor = vec4(mix(deep, seen, exp2(-0.13 * max(more.y, 0.0))), 1.0);
   writeDepth();
 }
 )";

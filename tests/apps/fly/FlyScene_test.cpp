@@ -187,7 +187,7 @@ TEST_F(DetailedLand, IsGreenWhereItIsAsRightAsWantedAndRedWhereItIsNot) {
   const Eye eye{eye_.pose.position, eye_.pose.height, lensPixels(kHigh, eye_.fieldOfView)};
   double wanted = 24.0;
   scene_->setTint([&](const Mesh& mesh) {
-    return errorColour(pixelError(flight_->engine().world(), mesh, eye) / wanted);
+    return errorColour(pixelError(flight_->engine().world(), mesh, eye, land()->morph()) / wanted);
   });
   const auto count = [](const QImage& picture) {
     int red = 0, green = 0;
