@@ -36,6 +36,7 @@
 #include "teren/World.h"
 
 #include "coin/FieldEngine.h"
+#include "coin/GroundHorizon.h"
 #include "coin/LogarithmicDepth.h"
 #include "coin/SceneChildren.h"
 #include "coin/SoTerrainMesh.h"
@@ -83,6 +84,10 @@ class SoTerrain::Private {
   /// `continued`: the snapshot comes from the engine of the one before.
   void show(const std::shared_ptr<const teren::Scene>& next, bool continued);
   void showEngine();
+  void forget(const teren::Mesh& mesh) {
+    renderer.forget(mesh);
+    horizon.forget(mesh);
+  }
   teren::ScenePlacement placement() const { return {origin, children.scene()->spacing()}; }
 
   bool isWet() const;
@@ -96,6 +101,7 @@ class SoTerrain::Private {
   SoTerrain& node;
   teren::SceneChildren children;
   teren::TerrainRenderer renderer;
+  teren::GroundHorizon horizon;
   teren::FieldEngine source;
   SoTimerSensor timer;
   SbTime lastTick = SbTime::zero();
@@ -198,13 +204,13 @@ void SoTerrain::Private::show(const std::shared_ptr<const teren::Scene>& next, b
   const std::shared_ptr<const teren::Scene> before = children.scene();
   if (next == before) return;
   if (!continued) {
-    for (const auto& mesh : before->meshes()) renderer.forget(*mesh);
+    for (const auto& mesh : before->meshes()) forget(*mesh);
     children.show(std::make_shared<const teren::Scene>());
   } else {
     auto mesh = before->meshes().begin();  // sorted by id, as what has been removed
     for (const std::uint64_t id : teren::difference(*before, *next).removed) {
       while ((*mesh)->id != id) ++mesh;
-      renderer.forget(**mesh);
+      forget(**mesh);
     }
   }
   children.show(next);
@@ -501,6 +507,9 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
   if (meshes.empty() && wet.empty()) return;
   if (picture.eye[2] + private_->origin[2] > static_cast<double>(picture.waterLevel)) {
     std::erase_if(meshes, [&](const teren::Mesh* mesh) { return teren::isLostInWater(*mesh, picture); });
+  }
+  if (const std::optional<double> nearest = teren::nearestDrawn(state)) {
+    private_->horizon.leaveOutHidden(meshes, picture.placement, picture.eye, *nearest);
   }
   for (const teren::Mesh* mesh : meshes) private_->drawnTriangles += mesh->indices->size() / 3;
   private_->tints.clear();

@@ -6,7 +6,9 @@
 
 #include <Inventor/SbMatrix.h>
 #include <Inventor/SbViewVolume.h>
+#include <Inventor/elements/SoClipPlaneElement.h>
 #include <Inventor/elements/SoCullElement.h>
+#include <Inventor/elements/SoDrawStyleElement.h>
 #include <Inventor/elements/SoLightElement.h>
 #include <Inventor/elements/SoModelMatrixElement.h>
 #include <Inventor/elements/SoViewVolumeElement.h>
@@ -37,6 +39,16 @@ std::optional<double> fieldOfView(SoState* state) {
   if (volume.getProjectionType() != SbViewVolume::PERSPECTIVE || !(height > 0.0 && near > 0.0))
     return std::nullopt;
   return 2.0 * std::atan(0.5 * height / near);
+}
+
+std::optional<double> nearestDrawn(SoState* state) {
+  const SbViewVolume& volume = SoViewVolumeElement::get(state);
+  const double scale = std::fabs(precise(SoModelMatrixElement::get(state)).det3());
+  if (volume.getProjectionType() != SbViewVolume::PERSPECTIVE || std::fabs(scale - 1.0) > 1e-3 ||
+      SoClipPlaneElement::getInstance(state)->getNum() > 0 ||
+      SoDrawStyleElement::get(state) != SoDrawStyleElement::FILLED)
+    return std::nullopt;
+  return static_cast<double>(volume.getNearDist());
 }
 
 Sun sunOf(SoState* state) {

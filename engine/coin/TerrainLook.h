@@ -39,6 +39,10 @@ Sun sunOf(SoState* state);
 /// Whether a mesh cannot be seen through the water, from above it: too deep, or below opaque water.
 bool isLostInWater(const Mesh& mesh, const Picture& picture);
 
+/// [m] From where on all ground in the picture is drawn, and filled, so that it hides what is behind it;
+/// empty where that cannot be said: without perspective, with clipping planes, as lines, scaled.
+std::optional<double> nearestDrawn(SoState* state);
+
 /// Where there is water above these meshes that is not outside the view volume or a clipping plane, wherever
 /// its bed is: their rectangles.
 std::vector<SbBox2f> wetPlaces(SoState* state, const Scene& scene, const ScenePlacement& placement,

@@ -1,0 +1,123 @@
+#include "coin/GroundHorizon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "teren/Hash.h"
+#include "teren/SceneQuery.h"
+
+#include "tests/coin/Stage.h"
+
+namespace teren {
+namespace {
+
+constexpr double kSpacing = 2.0;
+constexpr int kSide = 24, kIntervals = 8;
+
+/// [low, high)
+double uniform(RandomSequence& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random.nextBits(53)) * 0x1p-53;
+}
+
+double hills(double x, double y) {
+  return 25.0 * std::sin(x / 9.0) * std::cos(y / 13.0) + 8.0 * std::sin((x + 2.0 * y) / 7.0) +
+         std::fabs(std::remainder(x * 7.0 + y * 13.0, 5.0));
+}
+
+std::vector<const Mesh*> meshesOf(const Scene& scene) {
+  std::vector<const Mesh*> meshes;
+  for (const auto& mesh : scene.meshes()) meshes.push_back(mesh.get());
+  return meshes;
+}
+
+/// From one point of the scene to another.
+Ray between(const SbVec3d& from, const SbVec3d& to) {
+  const double x = from[0] / (kSpacing * kIntervals), y = from[1] / (kSpacing * kIntervals);
+  Ray ray;
+  ray.from = {static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y)),
+              x - std::floor(x), y - std::floor(y)};
+  ray.height = from[2];
+  ray.direction = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+  ray.length = 1.0;
+  return ray;
+}
+
+TEST(GroundHorizon, LeavesOutOnlyWhatNoLineOfSightReaches) {
+  constexpr std::uint64_t kSeed = 84;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  const auto scene =
+      makeScene({.side = kSide, .intervals = kIntervals, .spacing = kSpacing, .height = hills});
+  const SceneQuery query(scene, kIntervals);
+  const ScenePlacement placement(SbVec3d(0.0, 0.0, 0.0), kSpacing);
+  GroundHorizon horizon;
+  RandomSequence random(kSeed);
+  int leftOut = 0, rays = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    const double x = uniform(random, 2.0, kSide * kIntervals - 2.0),
+                 y = uniform(random, 2.0, kSide * kIntervals - 2.0);
+    const SbVec3d eye(x * kSpacing, y * kSpacing, hills(x, y) + uniform(random, 6.0, 45.0));
+    std::vector<const Mesh*> seen = meshesOf(*scene);
+    horizon.leaveOutHidden(seen, placement, eye, 0.5);
+    for (const auto& mesh : scene->meshes()) {
+      if (std::find(seen.begin(), seen.end(), mesh.get()) != seen.end()) continue;
+      ++leftOut;
+      for (const SurfaceVertex& vertex : mesh->vertices) {
+        const SbVec3d place(kSpacing * static_cast<double>(mesh->originColumn + vertex.column),
+                            kSpacing * static_cast<double>(mesh->originRow + vertex.row),
+                            static_cast<double>(vertex.height));
+        const Ray ray = between(eye, place);
+        RayHit hit;
+        query.firstHits({&ray, 1}, {&hit, 1});
+        ++rays;
+        ASSERT_EQ(hit.end, RayEnd::ground);
+        ASSERT_LT(hit.way, 1.0 - 1e-6) << "trial " << trial << ", mesh " << mesh->id;
+      }
+    }
+  }
+  RecordProperty("rays", rays);
+  EXPECT_GT(leftOut, 150 * kSide * kSide / 5);
+}
+
+TEST(GroundHorizon, KeepsTheOrderOfTheOthers) {
+  const auto scene =
+      makeScene({.side = kSide, .intervals = kIntervals, .spacing = kSpacing, .height = hills});
+  std::vector<const Mesh*> meshes = meshesOf(*scene);
+  std::reverse(meshes.begin(), meshes.end());
+  const std::vector<const Mesh*> all = meshes;
+  GroundHorizon horizon;
+  horizon.leaveOutHidden(meshes, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, SbVec3d(100.0, 120.0, 60.0), 0.5);
+  EXPECT_LT(meshes.size(), all.size());
+  auto at = all.begin();
+  for (const Mesh* mesh : meshes) {
+    at = std::find(at, all.end(), mesh);
+    ASSERT_NE(at, all.end());
+  }
+}
+
+TEST(GroundHorizon, LeavesOutNothingWhereTheNearPlaneMayCutAwayWhatHides) {
+  const auto scene =
+      makeScene({.side = kSide, .intervals = kIntervals, .spacing = kSpacing, .height = hills});
+  GroundHorizon horizon;
+  const SbVec3d eye(100.0, 120.0, 60.0);
+  std::vector<const Mesh*> near = meshesOf(*scene), cut = near;
+  horizon.leaveOutHidden(near, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 0.5);
+  horizon.leaveOutHidden(cut, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 40.0);
+  EXPECT_LT(near.size(), scene->meshes().size());
+  EXPECT_EQ(cut.size(), scene->meshes().size());
+}
+
+TEST(GroundHorizon, SeesAllOfAPlain) {
+  const auto scene = makeScene({.side = kSide, .intervals = kIntervals, .spacing = kSpacing});
+  GroundHorizon horizon;
+  std::vector<const Mesh*> seen = meshesOf(*scene);
+  horizon.leaveOutHidden(seen, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, SbVec3d(100.0, 120.0, 3.0), 0.5);
+  EXPECT_EQ(seen.size(), scene->meshes().size());
+}
+
+}  // namespace
+}  // namespace teren
