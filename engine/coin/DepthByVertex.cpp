@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coin/DrawnHeights.h"
+
 namespace teren {
 namespace {
 
+/// At most, wherever between its two surfaces each vertex is drawn.
 double squaredSide(const SurfaceVertex& a, const SurfaceVertex& b, double step) {
   const double east = step * (a.column - b.column), north = step * (a.row - b.row);
-  const double up = static_cast<double>(a.height) - static_cast<double>(b.height);
+  const auto [aLow, aHigh] = drawnHeights(a);
+  const auto [bLow, bHigh] = drawnHeights(b);
+  const double up = std::max(static_cast<double>(aHigh) - static_cast<double>(bLow),
+                             static_cast<double>(bHigh) - static_cast<double>(aLow));
   return east * east + north * north + up * up;
 }
 

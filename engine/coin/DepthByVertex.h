@@ -31,7 +31,8 @@ class DepthByVertex {
   std::unordered_map<const Mesh*, double> longest_;  // [m] side of a triangle
 };
 
-/// [m] The longest side of a mesh's triangles; `spacing` [m] of level-0 samples. O(triangles).
+/// [m] The longest side of a mesh's triangles, wherever between its surface and the coarser one each vertex
+/// is drawn; `spacing` [m] of level-0 samples. O(triangles).
 double longestSide(const Mesh& mesh, double spacing);
 
 /// [m] A lower bound for w within a box of the scene's.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "coin/DrawnHeights.h"
+
 namespace teren {
 namespace {
 
@@ -54,9 +56,9 @@ std::vector<GroundHorizon::Block> GroundHorizon::blocksOf(const Mesh& mesh) {
       mesh.indices->size() == 6 * squares;
   std::vector<Block> blocks;
   if (!whole || mesh.columns < kBlock || mesh.rows < kBlock) return blocks;
-  std::vector<float> heights(mesh.vertices.size());
+  std::vector<std::pair<float, float>> heights(mesh.vertices.size());
   for (const SurfaceVertex& vertex : mesh.vertices) {
-    heights[static_cast<std::size_t>(vertex.row * across + vertex.column)] = vertex.height;
+    heights[static_cast<std::size_t>(vertex.row * across + vertex.column)] = drawnHeights(vertex);
   }
   for (int south = 0; south < mesh.rows; south += kBlock) {
     for (int west = 0; west < mesh.columns; west += kBlock) {
@@ -66,9 +68,9 @@ std::vector<GroundHorizon::Block> GroundHorizon::blocksOf(const Mesh& mesh) {
                   std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
       for (int row = south; row <= north; ++row) {
         for (int column = west; column <= east; ++column) {
-          const float height = heights[static_cast<std::size_t>(row * across + column)];
-          block.low = std::min(block.low, height);
-          block.high = std::max(block.high, height);
+          const auto [low, high] = heights[static_cast<std::size_t>(row * across + column)];
+          block.low = std::min(block.low, low);
+          block.high = std::max(block.high, high);
         }
       }
       blocks.push_back(block);

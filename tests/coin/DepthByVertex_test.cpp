@@ -57,6 +57,16 @@ TEST(DepthByVertex, KnowsTheLongestSideOfAMesh) {
   EXPECT_DOUBLE_EQ(longestSide(*steep->meshes().front(), 3.0), std::sqrt(9.0 + 9.0 + 16.0));
 }
 
+TEST(DepthByVertex, KnowsTheLongestSideWhereverVerticesMove) {
+  auto triangle = std::make_shared<Mesh>();
+  triangle->indices = std::make_shared<const TriangleIndices>(TriangleIndices{0, 1, 2});
+  triangle->vertices = {{0, 0, 5.0F}, {1, 0, 5.0F}, {0, 1, 5.0F}};
+  EXPECT_DOUBLE_EQ(longestSide(*triangle, 3.0), std::sqrt(18.0)) << "all fixed";
+  triangle->vertices[0].setCoarser(0, 12.0F, 0, 0);
+  triangle->vertices[1].setCoarser(0, 1.0F, 0, 0);
+  EXPECT_DOUBLE_EQ(longestSide(*triangle, 3.0), std::sqrt(9.0 + 11.0 * 11.0)) << "each by its own share";
+}
+
 TEST(DepthByVertex, KnowsHowNearABoxComes) {
   RandomSequence random(83);
   for (int trial = 0; trial < 1000; ++trial) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -127,6 +128,28 @@ TEST(GroundHorizon, LeavesOutNothingWhereTheNearPlaneMayCutAwayWhatHides) {
   horizon.leaveOutHidden(cut, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 40.0);
   EXPECT_LT(near.size(), scene->meshes().size());
   EXPECT_EQ(cut.size(), scene->meshes().size());
+}
+
+TEST(GroundHorizon, CountsOnNoHeightThatAVertexMayLose) {
+  const auto towers = [](double x, double) { return 16.0 <= x && x <= 20.0 ? 60.0 : 0.0; };
+  const auto scene = makeScene({.side = 8, .intervals = 4, .spacing = kSpacing, .height = towers});
+  const SbVec3d eye(3.0, 30.0, 9.0);
+  const auto drawn = [&](float coarser) {
+    std::vector<std::shared_ptr<const Mesh>> moved;
+    std::vector<const Mesh*> meshes;
+    for (const auto& mesh : scene->meshes()) {
+      auto copy = std::make_shared<Mesh>(*mesh);
+      for (SurfaceVertex& vertex : copy->vertices)
+        vertex.setCoarser(0, vertex.height > 0.0F ? coarser : 0.0F, 0, 0);
+      meshes.push_back(copy.get());
+      moved.push_back(std::move(copy));
+    }
+    GroundHorizon horizon;
+    horizon.leaveOutHidden(meshes, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 0.5);
+    return meshes.size();
+  };
+  EXPECT_LT(drawn(60.0F), scene->meshes().size());
+  EXPECT_EQ(drawn(0.0F), scene->meshes().size());
 }
 
 TEST(GroundHorizon, SeesAllOfAPlain) {
