@@ -196,6 +196,15 @@ TEST(Morph, ShowsNoMoreErrorThanIsTold) {
     }
   }
   EXPECT_GT(more, scene->meshes().size() / 10) << "meshes that are more wrong for having moved";
+  Eye high = camera;
+  high.height += 3000.0;
+  double most = 0.0, unmoved = 0.0;
+  for (const auto& mesh : scene->meshes()) {
+    most = std::max(most, pixelError(*flight.world, *mesh, high, scene->morph()));
+    unmoved = std::max(unmoved, pixelError(*flight.world, *mesh, high));
+  }
+  EXPECT_EQ(pixelError(*flight.world, *scene, high).max, most);
+  EXPECT_GT(most, 1.05 * unmoved) << "seen from above all have moved";
   // And the truth at random places.
   const SceneQuery query(seenFrom(*scene, eye), flight.world->intervals());
   RandomSequence random(6);
