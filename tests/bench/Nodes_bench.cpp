@@ -1,6 +1,7 @@
 // What a node costs of a layer that is a continuous field, beside layers whose maps are blended, and beside
 // the field's samples without an engine around them; what its error costs, and calibrating a world's errors.
 #include <cstdint>
+#include <memory>
 
 #include <benchmark/benchmark.h>
 
@@ -8,6 +9,7 @@
 #include "teren/World.h"
 
 #include "patch/ErrorCalibration.h"
+#include "patch/MeshTask.h"
 #include "patch/NodeGap.h"
 #include "patch/NodeTask.h"
 #include "tests/bench/MedianReporter.h"
@@ -71,14 +73,33 @@ void nodeErrors(benchmark::State& state) {
 }
 
 /// The world shipped, with maps that are kept: what a node costs beside its error.
-void standardNodes(benchmark::State& state) {
+void standardNodes(benchmark::State& state, bool withCoarser) {
   const auto world = World::create(WorldDescription::standard(), *PluginRegistry::standard());
   if (!world) return state.SkipWithError(world.error().message.c_str());
   BaseMapStore maps(std::size_t{64} << 20);
   for (auto _ : state) {
-    NodeTask task(**world, {1, 0, 0}, maps);
+    NodeTask task(**world, {1, 0, 0}, maps, withCoarser);
     benchmark::DoNotOptimize(task.step(Slice::unlimited()));
   }
+}
+
+/// The mesh of such a node's interior, whose vertices draw near to the next coarser level or do not.
+void standardMeshes(benchmark::State& state, bool withCoarser) {
+  const auto world = World::create(WorldDescription::standard(), *PluginRegistry::standard());
+  if (!world) return state.SkipWithError(world.error().message.c_str());
+  BaseMapStore maps(std::size_t{64} << 20);
+  NodeTask task(**world, {1, 0, 0}, maps, withCoarser);
+  benchmark::DoNotOptimize(task.step(Slice::unlimited()));
+  const NodeHeights heights(std::make_shared<const HeightMap>(task.takeHeights()),
+                            withCoarser ? std::make_shared<const HeightMap>(task.takeCoarser()) : nullptr);
+  GridIndices indices;
+  std::int64_t vertices = 0;
+  for (auto _ : state) {
+    MeshTask mesh({{1, 0, 0}, {heights}}, Piece::interior, (*world)->spacing(1), indices);
+    benchmark::DoNotOptimize(mesh.step(Slice::unlimited()));
+    vertices += static_cast<std::int64_t>(mesh.takeResult()->vertices.size());
+  }
+  state.SetItemsProcessed(vertices);
 }
 
 /// All levels of the world shipped.
@@ -101,7 +122,10 @@ int runAll(int argc, char** argv) {
   add("spectral/maps", {.generator = "spectral"});
   add("noise/field", {.generator = "noise"});
   add("noise/alone", {.generator = "noise", .alone = true});
-  benchmark::RegisterBenchmark("standard/maps-kept", standardNodes)->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("standard/maps-kept", standardNodes, false)->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("standard/coarser-too", standardNodes, true)->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("standard/mesh", standardMeshes, false)->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("standard/moving-mesh", standardMeshes, true)->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("standard/error", nodeErrors)->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("standard/calibration", calibrateWorld)->Unit(benchmark::kMillisecond);
   MedianReporter reporter;
@@ -109,6 +133,8 @@ int runAll(int argc, char** argv) {
   for (const char* blended : {"fault/maps-kept", "fault/maps", "spectral/maps"})
     reporter.printRatio(blended, "noise/field", 0.0);
   reporter.printRatio("noise/field", "noise/alone", 0.0);
+  reporter.printRatio("standard/coarser-too", "standard/maps-kept", 0.0);
+  reporter.printRatio("standard/moving-mesh", "standard/mesh", 0.0);
   reporter.printRatio("standard/error", "standard/maps-kept", 0.0);
   reporter.printRatio("standard/calibration", "standard/maps-kept", 0.0);
   return 0;
