@@ -10,6 +10,7 @@
 
 #include "teren/Parameter.h"
 #include "teren/PixelError.h"
+#include "teren/ProcessorTime.h"
 
 #include "stream/ObjectSet.h"
 #include "stream/Streamer.h"
@@ -110,8 +111,11 @@ struct Engine::State final : Ground {
   std::shared_ptr<const Scene> scene;
   mutable std::shared_ptr<const SceneQuery> query;  // of `scene` once somebody has asked
   mutable int queryLevels = 0;                      // whose errors it tells were measured
-  std::size_t sceneTriangles = 0;
   std::chrono::nanoseconds lastUpdate{0};
+  /// Snapshots that went with the last publishing: letting go of one costs as much as making it, so that is
+  /// done when the next budget begins.
+  std::vector<std::shared_ptr<const void>> retired;
+  std::chrono::nanoseconds publishing{0};  // what it has taken lately, at most: kept free of the budget
   bool measuring = false;
 
   // Ground
@@ -167,13 +171,16 @@ Morph Engine::State::morph() const {
 void Engine::State::publish() {
   const Morph next = morph();
   if (streamer.nodes().serial() == scene->serial() && next == scene->morph()) return;
+  const std::chrono::nanoseconds start = threadProcessorTime();
+  retired.push_back(scene);
   if (query->scene() != scene) {  // nobody asks now: it is not to keep what is drawn no more
+    retired.push_back(query);
     query = std::make_shared<const SceneQuery>(
         std::make_shared<const Scene>(0, world->spacing(0), std::vector<std::shared_ptr<const Mesh>>{}),
         world->intervals());
   }
   scene = streamer.nodes().snapshot(next);
-  sceneTriangles = scene->triangles();
+  publishing = std::max(threadProcessorTime() - start, publishing - publishing / 64);
 }
 
 Engine::Engine(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -266,9 +273,10 @@ void Engine::update(double dt, std::chrono::nanoseconds budget) {
   const Slice::Clock::time_point start = Slice::Clock::now();
   State& state = *state_;
   const bool measured = state.streamer.isMeasuring();
+  state.retired.clear();
   state.objects.advance(dt, state, StoredGround(state.streamer.nodes()));
   state.choose();
-  state.streamer.work(deadlineAfter(start, budget));
+  state.streamer.work(deadlineAfter(start, budget - std::min(state.publishing, budget / 2)));
   state.publish();
   state.measuring =
       measured || state.streamer.isMeasuring();  // what was found last counts in the next choice
@@ -288,6 +296,7 @@ void Engine::settle(const std::function<bool(std::size_t, std::size_t)>& progres
       if (!settled) streamer.wait(kBetweenReports);
     } while (!settled && Slice::Clock::now() < report);
     state.publish();
+    state.retired.clear();
     if (progress && !progress(streamer.wanted() - streamer.missing(), streamer.wanted())) return;
   }
 }
@@ -313,7 +322,7 @@ EngineFigures Engine::figures() const noexcept {
   const Streamer& streamer = state.streamer;
   EngineFigures figures;
   figures.nodes = streamer.nodes().drawnCount();
-  figures.triangles = state.sceneTriangles;
+  figures.triangles = streamer.nodes().triangles();
   figures.bytes = streamer.bytes();
   figures.peakBytes = std::max(streamer.peakBytes(), figures.bytes);
   figures.radius = streamer.plan().radius;

@@ -208,6 +208,7 @@ bool NodeStore::apply(const DrawnChange& change, std::span<const BuiltPiece> pie
     pieces_.emplace(built.plan.name, Drawn{id, bytes, isBorder ? built.plan.nodes : std::vector<NodeKey>{}});
     meshes_.emplace_hint(meshes_.end(), id, built.mesh);
     meshBytes_ += bytes;
+    triangles_ += built.mesh->indices->size() / 3;
     bookkeepingBytes_ += bookkeeping(built.plan.name);
   }
   ++serial_;
@@ -225,7 +226,9 @@ void NodeStore::dropPiece(const PieceName& name) {
   const auto piece = pieces_.find(name);
   meshBytes_ -= piece->second.bytes;
   bookkeepingBytes_ -= bookkeeping(name);
-  meshes_.erase(piece->second.id);
+  const auto mesh = meshes_.find(piece->second.id);
+  triangles_ -= mesh->second->indices->size() / 3;
+  meshes_.erase(mesh);
   pieces_.erase(piece);
 }
 

@@ -123,6 +123,7 @@ class NodeStore {
   /// Of everything held, the store's own bookkeeping included (estimated).
   std::size_t bytes() const noexcept;
   std::size_t meshBytes() const noexcept { return meshBytes_; }
+  std::size_t triangles() const noexcept { return triangles_; }  ///< drawn
   /// What a node adds to bytes() at most: its heights alone, or drawn among nodes of its level, with all its
   /// pieces.
   std::size_t heldBytes() const noexcept;
@@ -157,6 +158,7 @@ class NodeStore {
   PatchTree<NodeHeights> tree_;
   std::unordered_map<NodeKey, float, NodeKeyHash> bends_;  // [m] of the nodes held
   std::size_t heightBytes_ = 0, meshBytes_ = 0, bookkeepingBytes_ = 0;
+  std::size_t triangles_ = 0;
   PatchTree<NodeHeights> drawn_;
   std::size_t drawnCount_ = 0;
   std::vector<std::size_t> drawnAtLevel_;
