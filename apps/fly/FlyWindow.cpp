@@ -144,7 +144,7 @@ void FlyWindow::present(bool last) {
   const Clock::time_point presented = Clock::now();
   const double milliseconds = 1e3 * seconds(presented - lastPresented_);
   frameTimes_.add(milliseconds);
-  graph_.add(milliseconds, 1e-3 * flight_.engineTimes().latest(1).p50);
+  graph_.add(milliseconds, 1e-3 * flight_.engineTimes().last());
   lastPresented_ = presented;
 }
 

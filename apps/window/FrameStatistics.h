@@ -18,6 +18,8 @@ class FrameStatistics {
   void add(double value);
 
   std::size_t count() const noexcept { return values_.size(); }
+  /// The latest value; 0 when there is none.
+  double last() const noexcept { return values_.empty() ? 0.0 : values_.back(); }
   /// Zeros when there is no value. O(count).
   Percentiles percentiles() const { return latest(values_.size()); }
   /// The same over the last `window` values (or all, if there are fewer).

@@ -48,5 +48,13 @@ TEST(FrameStatistics, LooksOnlyAtTheLatestWhenAsked) {
   EXPECT_EQ(statistics.latest(0).max, 0.0);
 }
 
+TEST(FrameStatistics, TellTheLatestValue) {
+  FrameStatistics statistics;
+  EXPECT_EQ(statistics.last(), 0.0);
+  statistics.add(7.0);
+  statistics.add(3.0);
+  EXPECT_EQ(statistics.last(), 3.0);
+}
+
 }  // namespace
 }  // namespace teren
