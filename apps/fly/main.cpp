@@ -13,6 +13,7 @@
 #include "apps/fly/FlyWindow.h"
 #include "apps/fly/LandSource.h"
 #include "apps/options/CommandLine.h"
+#include "apps/options/LargeBlocks.h"
 #include "apps/options/WorldOptions.h"
 #include "apps/window/FrameReport.h"
 #include "apps/window/SavedFiles.h"
@@ -84,5 +85,6 @@ int run(int argc, char** argv) {
 }  // namespace teren
 
 int main(int argc, char** argv) {
+  teren::keepLargeBlocksApart();
   return teren::run(argc, argv);
 }

@@ -7,6 +7,7 @@
 #include "teren/Parameter.h"
 #include "teren/Quote.h"
 
+#include "apps/options/LargeBlocks.h"
 #include "apps/options/ViewOptions.h"
 #include "apps/options/WorldOptions.h"
 #include "apps/teren/Command.h"
@@ -135,6 +136,7 @@ class FlightCommand final : public Command {
         json_(addJson()) {}
 
   ExitCode run() override {
+    keepLargeBlocksApart();
     Result<FlightPlan> plan = readPlan();
     if (!plan) return fail(kWrongInput, plan.error().message);
     const Result<std::shared_ptr<const World>> world = world_.create(*PluginRegistry::standard());
