@@ -63,5 +63,6 @@ std::unique_ptr<Command> makeFlightCommand(CLI::App& parent);
 std::unique_ptr<Command> makeNewPluginCommand(CLI::App& parent);
 std::unique_ptr<Command> makeCheckCommand(CLI::App& parent);
 std::unique_ptr<Command> makeSandCommand(CLI::App& parent);
+std::unique_ptr<Command> makeReportCommand(CLI::App& parent);
 
 }  // namespace teren

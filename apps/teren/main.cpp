@@ -55,6 +55,7 @@ int main(int argumentCount, char** arguments) {
   commands.push_back(teren::makeNewPluginCommand(application));
   commands.push_back(teren::makeCheckCommand(application));
   commands.push_back(teren::makeSandCommand(application));
+  commands.push_back(teren::makeReportCommand(application));
   application.require_subcommand(0, 1);
 
   if (const auto code = teren::parseCommandLine(application, argumentCount, arguments)) {
@@ -64,6 +65,6 @@ int main(int argumentCount, char** arguments) {
     if (command->chosen()) return finish(application, run(application, *command));
   }
   return teren::fail(application, teren::kWrongInput,
-                     "a command is missing: plugins, describe, bake, query, flight, new-plugin, check or "
-                     "sand (see teren --help)");
+                     "a command is missing: plugins, describe, bake, query, flight, new-plugin, check, "
+                     "sand or report (see teren --help)");
 }
