@@ -120,7 +120,7 @@ std::vector<Column> columns() {
 Eye eyeOf(Engine& engine) {
   const Motion motion = engine.object(0).motion();
   const DetailSettings& detail = *engine.options().view.detail;
-  return {motion.position, motion.height, lensPixels(static_cast<int>(detail.lines), detail.fieldOfView)};
+  return {motion.position, motion.height, lensPixels(detail.lines, detail.fieldOfView)};
 }
 
 Result<void> addRow(Table& table, double wanted, FilledView& view, const GroundSample& sample,

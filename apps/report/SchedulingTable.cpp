@@ -83,7 +83,7 @@ class Run {
     const DetailSettings& detail = *engine_->options().view.detail;
     const Motion motion = walker_->motion();
     const Eye eye{motion.position, motion.height,
-                  lensPixels(static_cast<int>(detail.lines), detail.fieldOfView)};
+                  lensPixels(detail.lines, detail.fieldOfView)};
     errors_.push_back(pixelError(engine_->world(), *engine_->scene(), eye).max);
   }
 

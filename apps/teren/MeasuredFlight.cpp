@@ -152,7 +152,7 @@ void MeasuredFlight::lookAtPicture(std::int64_t update) {
   ++result_.pixelError->frames;
   const Motion eye = engine_->object(engine_->active()).motion();
   if (!engine_->drawnHeight(eye.position)) return;  // nothing drawn is not nothing wrong
-  const double lens = lensPixels(static_cast<int>(std::lround(detail->lines)), detail->fieldOfView);
+  const double lens = lensPixels(detail->lines, detail->fieldOfView);
   const Scene ahead = PictureAhead(*world_, eye, *detail).of(*engine_->scene());
   const double seen = pixelError(*world_, ahead, {eye.position, eye.height, lens}).max;
   pixelErrors_.push_back(static_cast<float>(seen));

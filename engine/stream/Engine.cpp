@@ -164,7 +164,7 @@ Morph Engine::State::morph() const {
   for (std::size_t level = 0; level < count; ++level) {
     errors[level] = world->nodeErrors().estimate(static_cast<int>(level));
   }
-  const double lens = lensPixels(static_cast<int>(std::lround(detail.lines)), detail.fieldOfView);
+  const double lens = lensPixels(detail.lines, detail.fieldOfView);
   return {streamer.pixelError() / lens, std::span(errors).first(count)};
 }
 
