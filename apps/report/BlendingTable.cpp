@@ -27,7 +27,7 @@ struct Subject {
   std::vector<double> times;  // [ns] a sample
 
   std::string kernelName() const { return kernel == BlendKernel::linear ? "linear" : "smooth"; }
-  std::string name() const { return generator + ", " + kernelName() + (preserve ? ", preserved" : ""); }
+  std::string name() const { return generator + " " + kernelName() + (preserve ? " preserved" : ""); }
   HeightsAt heights() const {
     return [world = world](std::span<const Position> places, std::span<double> heights) {
       world->heights(places, heights);

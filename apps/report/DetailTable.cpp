@@ -182,8 +182,10 @@ Result<Table> measureDetail(const std::shared_ptr<const World>& world, std::span
                             const Effort& effort, const GoOn& goOn) {
   Table table(
       "detail", "Level of detail",
-      "One view, from 100 m above the ground, at pixel errors from fine to coarse: what is drawn, what "
-      "it costs to choose and to make, and how far it is from the level-0 surface.",
+      "One view, from 100 m above the ground, at pixel errors from fine to coarse, under a byte cap of " +
+          std::to_string(effort.detailCap >> 20U) +
+          " MiB: what is drawn, what it costs to choose and to make, and how far it is from the "
+          "level-0 surface. Where all of a small view is level 0, nothing is wrong.",
       columns());
   std::map<double, GroundSample> samples;  // by distance
   for (const double wanted : pixelErrors) {

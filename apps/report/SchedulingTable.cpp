@@ -82,8 +82,7 @@ class Run {
   void look() {
     const DetailSettings& detail = *engine_->options().view.detail;
     const Motion motion = walker_->motion();
-    const Eye eye{motion.position, motion.height,
-                  lensPixels(detail.lines, detail.fieldOfView)};
+    const Eye eye{motion.position, motion.height, lensPixels(detail.lines, detail.fieldOfView)};
     errors_.push_back(pixelError(engine_->world(), *engine_->scene(), eye).max);
   }
 
@@ -109,6 +108,7 @@ std::vector<Cell> Run::row() const {
       1e-6 * static_cast<double>(budget_.count()),
       static_cast<double>(nodes_) / fillSeconds,
       fillSeconds,
+      fillWork_,
       time.median,
       time.p99,
       time.max,

@@ -54,11 +54,8 @@ OrderedJson asJson(const FlownPixelError& error) {
 }
 
 OrderedJson asJson(const HeldMemory& held) {
-  return {{"seconds", held.seconds},
-          {"rss_bytes", held.resident},
-          {"engine_bytes", held.engine},
-          {"used_bytes", held.used},
-          {"unused_bytes", held.unused}};
+  return {{"seconds", held.seconds},     {"rss_bytes", held.resident}, {"engine_bytes", held.engine},
+          {"query_bytes", held.queries}, {"used_bytes", held.used},    {"unused_bytes", held.unused}};
 }
 
 OrderedJson asJson(const FlightResult& result) {

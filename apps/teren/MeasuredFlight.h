@@ -42,6 +42,7 @@ struct HeldMemory {
   std::int64_t seconds = 0;  ///< flown
   std::size_t resident = 0;  ///< of the whole program, in memory
   std::size_t engine = 0;    ///< EngineFigures::bytes
+  std::size_t queries = 0;   ///< World::queryBytes: maps for ground that the engine did not have in time
   std::size_t used = 0;      ///< what the program has allocated and not freed, and its allocator's headers
   std::size_t unused = 0;    ///< what the allocator keeps beside that
 };

@@ -70,7 +70,7 @@ Scene PictureAhead::of(const Scene& scene) const {
   for (const auto& mesh : scene.meshes()) {
     if (mayShow(*mesh)) shown.push_back(mesh);
   }
-  return {scene.serial(), scene.spacing(), std::move(shown)};
+  return {scene.serial(), scene.spacing(), std::move(shown), scene.morph()};
 }
 
 }  // namespace teren

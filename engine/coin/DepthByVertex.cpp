@@ -45,12 +45,14 @@ double nearestDepth(const SbBox3f& box, const SbVec3d& eye, const SbDPMatrix& to
 bool DepthByVertex::does(const Mesh& mesh, const ScenePlacement& placement, const SbVec3d& eye,
                          const SbDPMatrix& toClip) {
   const double nearest = nearestDepth(placement.box(mesh), eye, toClip);
+  // How much w differs by along a metre of the land, at most: 1 but where a scene is scaled.
+  const double steepest = std::hypot(toClip[0][3], toClip[1][3], toClip[2][3]);
   // No triangle is shorter than its step: most of what is too near is known without a look.
   const double step = std::ldexp(placement.spacing(), mesh.level);
-  if (!(step <= kWidest * nearest)) return false;
+  if (!(step * steepest <= kWidest * nearest)) return false;
   const auto [found, isNew] = longest_.try_emplace(&mesh, 0.0);
   if (isNew) found->second = longestSide(mesh, placement.spacing());
-  return found->second <= kWidest * nearest;
+  return found->second * steepest <= kWidest * nearest;
 }
 
 }  // namespace teren

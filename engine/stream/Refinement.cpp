@@ -293,7 +293,6 @@ void Refinement::again(const DrawnChange& change) {
       if (index != Cut::kNone) queue(now_, index);
     }
   }
-  if (change.add.empty()) leaving_.insert(leaving_.end(), change.remove.begin(), change.remove.end());
 }
 
 std::size_t Refinement::bytes() const noexcept {

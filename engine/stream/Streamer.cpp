@@ -67,9 +67,10 @@ double mostRoots(const World& world, std::span<const DetailSettings> views) {
 std::size_t buildBytes(const World& world, int level, std::span<const DetailSettings> views) {
   const std::size_t ground = NodeTask::mostBytes(world, 0);
   if (views.empty()) return std::max(ground, NodeTask::mostBytes(world, level));
+  constexpr bool kWithCoarser = true;  // what vertices move to with distance
   std::size_t most = ground;
-  for (int above = rootLevel(world, views); above > 0; --above) {
-    most = std::max(most, NodeTask::mostBytes(world, above));
+  for (int of = rootLevel(world, views); of >= 0; --of) {
+    most = std::max(most, NodeTask::mostBytes(world, of, kWithCoarser));
   }
   return most;
 }

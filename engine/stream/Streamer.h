@@ -75,9 +75,10 @@ class Streamer {
   double pixelError() const noexcept {
     return options_.view.detail ? tolerance_ * options_.view.detail->pixelError : 0.0;
   }
-  std::size_t wanted() const noexcept { return wanted_.size() + refinement_.wanted(); }
-  std::size_t missing() const noexcept { return missing_ + refinement_.missing(); }  ///< of what is wanted
-  std::size_t unfinished() const { return runner_.unfinished(); }                    ///< tasks
+  /// A choice that is not done yet counts for one, which is missing.
+  std::size_t wanted() const noexcept { return wanted_.size() + refinement_.wanted() + choosing(); }
+  std::size_t missing() const noexcept { return missing_ + refinement_.missing() + choosing(); }
+  std::size_t unfinished() const { return runner_.unfinished(); }  ///< tasks
   std::size_t bytes() const;
   std::size_t peakBytes() const noexcept { return peakBytes_; }
   void setRendererBytes(std::size_t bytes) noexcept;
@@ -122,6 +123,7 @@ class Streamer {
   void chooseDetail(std::span<const Motion> motions, std::size_t active);
   bool isViewedAsBefore() const;
   bool isChosen() const;
+  std::size_t choosing() const noexcept { return selection_ && !isChosen() ? 1 : 0; }
   bool chooseSome(const Slice& slice);
   MemoryNeeds detailNeeds() const;
   void beginChoice();

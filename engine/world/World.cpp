@@ -358,6 +358,10 @@ double World::deviation() const noexcept {
   return std::sqrt(squares);
 }
 
+std::size_t World::queryBytes() const {
+  return queryMaps_->bytes();
+}
+
 double World::height(const Position& position) const {
   double height = 0.0;
   heights({&position, 1}, {&height, 1});

@@ -136,8 +136,9 @@ class Engine {
   /// mesh.
   std::shared_ptr<const SceneQuery> sceneQuery() const;
 
-  /// [m] The triangles on the screen at a position; empty where nothing is drawn, and, like the next two, for
-  /// a position that is not valid().
+  /// [m] The triangles of the scene at a position, before their vertices are moved (Morph.h): on the screen
+  /// they are off by less than the pixel error wanted. Empty where nothing is drawn, and, like the next two,
+  /// for a position that is not valid().
   std::optional<double> drawnHeight(const Position& position) const;
   /// [m] The level-0 triangles at a position, as they are kept under objects: World::query's `drawn`, bit for
   /// bit. Empty where they are not there.

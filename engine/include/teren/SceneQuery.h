@@ -1,6 +1,7 @@
 // What stands where on the drawn ground: heights, normals and the first hits of rays, on exactly the
-// triangles of a snapshot, many at a time. For whatever has to fit what is seen: clearance, shadows, picking,
-// vehicles.
+// triangles of a snapshot, many at a time; before a renderer moves their vertices with distance (Morph.h),
+// which changes what is seen by less than the pixel error wanted. For whatever has to fit what is seen:
+// clearance, shadows, picking, vehicles.
 #pragma once
 
 #include <array>

@@ -101,6 +101,8 @@ class World {
   /// single calls where places leap about (bench-scene-query).
   void heights(std::span<const Position> places, std::span<double> heights) const;
   static constexpr std::size_t kQueryBytes = std::size_t{64} << 20;
+  /// What queries keep now. Not part of what an engine counts and caps.
+  std::size_t queryBytes() const;
 
   /// Both heights of a point, law 0 and the level-0 triangles, and a bound on their difference. Makes no map
   /// twice, whatever fits into kQueryBytes.
