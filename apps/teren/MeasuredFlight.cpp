@@ -21,8 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kStep = 1.0 / static_cast<double>(kUpdatesPerSecond);  // [s]
-constexpr double kAsRounded =
-    1.0 + 1e-9;  // moved vertices come as near to what is wanted as rounding lets them
+constexpr double kAsRounded = 1.0 + 1e-6;  // moved vertices come as near to what is wanted as floats let them
 constexpr std::int64_t kFirstFrames = 10 * kUpdatesPerSecond;  // whose pixel errors do not count
 
 std::size_t residentBytes() {
