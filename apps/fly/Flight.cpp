@@ -90,7 +90,8 @@ Result<void> Flight::setDetail(const DetailSettings& detail) {
 void Flight::workAtNext(std::chrono::nanoseconds budget) {
   next_->setActive(active());
   next_->update(0.0, budget);
-  if (next_->figures().pending > engine_->figures().pending) return;
+  const EngineFigures there = next_->figures();
+  if (there.nodes == 0 || there.pending > engine_->figures().pending) return;
   next_->takeObjects();
   const std::size_t index = active();
   for (std::unique_ptr<Object>& object : engine_->takeObjects()) next_->add(std::move(object));

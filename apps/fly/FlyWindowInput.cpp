@@ -90,13 +90,17 @@ void FlyWindow::zoom(double steps) {
 void FlyWindow::act(Action action) {
   switch (action) {
     case Action::cameraReset:
-      rig_.reset();
-      if (frozen_) frozen_->camera = FreeCamera(frozen_->eye);
+      if (frozen_) {
+        frozen_->camera = FreeCamera(frozen_->eye);
+      } else {
+        rig_.reset();
+      }
       break;
     case Action::switchPerson:
-      rig_.togglePerson();
+      if (!frozen_) rig_.togglePerson();
       break;
     case Action::nextObject:
+      if (frozen_) break;  // it would see other land
       flight_.nextObject();
       say("you fly " + flight_.activeObject().name());
       showHelp();

@@ -226,6 +226,9 @@ TEST_F(FlyWindowDetail, StaysAsItIsWhileTheCameraFliesOffAlone) {
   EXPECT_EQ(detail()->fieldOfView, fieldOfView) << "nor does the zoom choose";
   tap(Qt::Key_Home);
   EXPECT_LT(farOff(begin), 1e-6);
+  const std::size_t seenBy = flight_->active();
+  tap(Qt::Key_Tab);
+  EXPECT_EQ(flight_->active(), seenBy) << "whose eye is frozen";
   tap(Qt::Key_F4);
   EXPECT_FALSE(window_->isFrozen());
   fly(5);
