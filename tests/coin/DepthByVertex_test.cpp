@@ -106,6 +106,11 @@ TEST(DepthByVertex, DoesForMeshesFarFromTheEyeForTheirTriangles) {
   EXPECT_FALSE(does(even, -2.0 * away)) << "behind the eye";
   EXPECT_FALSE(does(rough, 1.5 * away));
   EXPECT_TRUE(does(rough, 3.5 * away));
+  SbDPMatrix scaled = alongZ();
+  for (int row = 0; row < 4; ++row) scaled[row][3] *= 10.0;
+  EXPECT_TRUE(depth.does(even, placement, SbVec3d(0.0, 0.0, 1.01 * away), scaled));
+  EXPECT_FALSE(depth.does(even, placement, SbVec3d(0.0, 0.0, 0.99 * away), scaled))
+      << "in a scaled scene, too";
 }
 
 /// What OpenGL's depth buffer holds of level ground, in shares by which it lies farther than the ground is.
