@@ -17,24 +17,35 @@ Finding Property::check(const Subject& subject, const Effort& effort) const {
   }
 }
 
-std::span<const Property* const> contract() {
-  static const PropertyPointer owned[] = {
+namespace {
+
+std::vector<const Property*> pointersTo(std::span<const PropertyPointer> owned) {
+  std::vector<const Property*> pointers;
+  for (const PropertyPointer& property : owned) pointers.push_back(property.get());
+  return pointers;
+}
+
+}  // namespace
+
+std::span<const Property* const> contract(PluginKind kind) {
+  static const PropertyPointer ofMaps[] = {
       makeCompletion(),  makeSlicing(),      makeOrder(),  makeThreads(),    makeParallel(),
       makeSliceLength(), makeFinite(),       makeRange(),  makeMean(),       makeDeviation(),
       makeResidual(),    makeLevels(),       makeField(),  makeFieldError(), makeParameters(),
       makeMargins(),     makeCancellation(), makeMemory(), makeAllocation()};
-  static const std::vector<const Property*> properties = [] {
-    std::vector<const Property*> pointers;
-    for (const PropertyPointer& property : owned) pointers.push_back(property.get());
-    return pointers;
-  }();
-  return properties;
+  static const PropertyPointer ofDeformers[] = {
+      makeStamps(),  makeStepSlicing(), makeSurfaces(),  makeStepLength(), makeCollar(),
+      makeHeights(), makeChanged(),     makeSnapshots(), makeHostile(),    makeBytes()};
+  static const std::vector<const Property*> mapContract = pointersTo(ofMaps);
+  static const std::vector<const Property*> deformerContract = pointersTo(ofDeformers);
+  return kind == PluginKind::deformer ? deformerContract : mapContract;
 }
 
-const Property* findProperty(std::string_view name) {
-  const auto found = std::find_if(contract().begin(), contract().end(),
+const Property* findProperty(PluginKind kind, std::string_view name) {
+  const auto properties = contract(kind);
+  const auto found = std::find_if(properties.begin(), properties.end(),
                                   [name](const Property* property) { return property->name() == name; });
-  return found == contract().end() ? nullptr : *found;
+  return found == properties.end() ? nullptr : *found;
 }
 
 }  // namespace teren::check

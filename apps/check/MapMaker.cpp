@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <exception>
 #include <limits>
 #include <utility>
 
@@ -10,21 +9,12 @@
 #include "teren/Quote.h"
 #include "teren/StepLimit.h"
 
+#include "apps/check/Called.h"
 #include "apps/check/Counterexample.h"
 #include "apps/check/MapComparison.h"
 #include "apps/check/SourceNoise.h"
 
 namespace teren::check {
-namespace {
-
-constexpr std::size_t kSentenceBytes = 200;  // of a plugin's own words
-
-std::string sentenceOf(const std::exception& exception) {
-  const char* const text = exception.what();  // a foreign class, which may have none
-  return text == nullptr ? "an exception without a text" : shortened(text, kSentenceBytes);
-}
-
-}  // namespace
 
 MapRequest requestOf(int n, int samples, int level) {
   const int intervals = level < 31 ? (samples - 1) >> level : 0;
@@ -38,19 +28,6 @@ MapRequest requestOf(int n, int samples, int level) {
           .finestIntervals = samples - 1};
 }
 
-template <class Where, class Call>
-auto MapMaker::called(const Where& where, const Call& call) const {
-  try {
-    return call();
-  } catch (const Counterexample&) {
-    throw;
-  } catch (const std::exception& exception) {
-    throw Counterexample{where() + ": it threw " + inQuotes(sentenceOf(exception))};
-  } catch (...) {
-    throw Counterexample{where() + ": it threw something that is no std::exception"};
-  }
-}
-
 /// The plugin's task, watched. It keeps the plugin alive.
 class MapMaker::Task final : public SlicedTask {
  public:
@@ -61,7 +38,7 @@ class MapMaker::Task final : public SlicedTask {
     if (++steps_ > limit_) {
       throw Counterexample{place_ + ": it is not done after " + std::to_string(limit_) + " steps"};
     }
-    return maker_.called([this] { return place_; }, [&] { return task_->step(slice); });
+    return called([this] { return place_; }, [&] { return task_->step(slice); });
   }
 
  private:

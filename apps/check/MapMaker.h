@@ -58,9 +58,6 @@ class MapMaker {
   std::string place(const FieldRequest& request) const;
 
  private:
-  /// Calls the plugin; what it throws becomes a Counterexample that begins with `where`.
-  template <class Where, class Call>
-  auto called(const Where& where, const Call& call) const;
   class Task;
   std::unique_ptr<SlicedTask> watched(std::string place, std::int64_t limit,
                                       std::unique_ptr<SlicedTask> task) const;

@@ -29,4 +29,16 @@ PropertyPointer makeMargins();
 PropertyPointer makeMemory();
 PropertyPointer makeAllocation();
 
+// Of deformers.
+PropertyPointer makeStamps();
+PropertyPointer makeStepSlicing();
+PropertyPointer makeCollar();
+PropertyPointer makeChanged();
+PropertyPointer makeHeights();
+PropertyPointer makeHostile();
+PropertyPointer makeSurfaces();
+PropertyPointer makeSnapshots();
+PropertyPointer makeBytes();
+PropertyPointer makeStepLength();
+
 }  // namespace teren::check

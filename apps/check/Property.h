@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "teren/Plugin.h"
+
 namespace teren::check {
 
 class Subject;
@@ -52,10 +54,11 @@ class Property {
   virtual std::string holds(const Subject& subject, const Effort& effort) const = 0;
 };
 
-/// All properties, in the order in which they are told; they live as long as the program.
-std::span<const Property* const> contract();
+/// All properties of a kind of plugins, in the order in which they are told; they live as long as the
+/// program.
+std::span<const Property* const> contract(PluginKind kind);
 
 /// nullptr where none has this name.
-const Property* findProperty(std::string_view name);
+const Property* findProperty(PluginKind kind, std::string_view name);
 
 }  // namespace teren::check

@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <vector>
 
-#include "teren/Plugin.h"
 #include "teren/ProcessorTime.h"
 
 #include "apps/check/Allowance.h"
 #include "apps/check/Counterexample.h"
 #include "apps/check/MapMaker.h"
 #include "apps/check/Properties.h"
+#include "apps/check/SliceTimes.h"
 #include "apps/check/Subject.h"
 
 namespace teren::check {
@@ -18,37 +17,18 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::nanoseconds;
 
-constexpr microseconds kAsked(100);
-/// What a sanitizer adds is not the plugin's.
-constexpr microseconds kMost(kSanitizerWord == 0 ? 200 : 1000);
 constexpr int kSamples = 257;
-/// So many slices are enough for a percentile; of fewer than the least, it would nearly be the longest of
-/// all. Maps that are made in a few slices are not worth the waiting.
-constexpr std::size_t kEnough = 400, kFewest = 200;
+/// Maps that are made in a few slices are not worth the waiting.
 constexpr int kMostMaps = 100, kFewestMaps = 8;
-/// A machine that is busy with other things makes single slices long, also by the thread's own clock; a
-/// plugin that overruns does so every time.
-constexpr int kAttempts = 5;
-
-/// By nearest rank: the least that 99 % do not exceed.
-nanoseconds percentile99(std::vector<nanoseconds>& times) {
-  const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(times.size()))) - 1;
-  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(rank), times.end());
-  return times[rank];
-}
-
-std::string text(nanoseconds time) {
-  return std::to_string(std::chrono::duration_cast<microseconds>(time).count()) + " us";
-}
 
 /// Steps a map as the engine does: the first slice includes `begin`.
 void measure(const MapMaker& maker, const MapRequest& request, HeightView map,
              std::vector<nanoseconds>& times) {
   maker.prepare(request, map);
   std::unique_ptr<SlicedTask> task;
-  for (bool done = false; !done && times.size() < 8 * kEnough;) {
+  for (bool done = false; !done && times.size() < 8 * kEnoughSlices;) {
     const nanoseconds start = threadProcessorTime();
-    const Slice slice = Slice::lasting(kAsked);
+    const Slice slice = Slice::lasting(kAskedSlice);
     if (task == nullptr) task = maker.begin(request, map);
     done = task->step(slice);
     times.push_back(threadProcessorTime() - start);
@@ -70,29 +50,30 @@ class SliceLength final : public Property {
       const MapMaker maker = subject.maker(setting);
       nanoseconds best = nanoseconds::max();
       std::size_t slices = 0;
-      for (int attempt = 0; attempt < kAttempts && best >= kMost; ++attempt) {
+      for (int attempt = 0; attempt < kSliceAttempts && best >= kLongestSlice; ++attempt) {
         std::vector<nanoseconds> times = timesOf(maker, effort);
         slices = times.size();
         best = std::min(best, percentile99(times));
       }
-      if (best >= kMost) {
+      if (best >= kLongestSlice) {
         throw Counterexample{maker.place(requestOf(0, kSamples)) + ": 1 % of " + std::to_string(slices) +
-                             " slices asked for " + text(kAsked) + " used " + text(best) + " or more"};
+                             " slices asked for " + microsecondsText(kAskedSlice) + " used " +
+                             microsecondsText(best) + " or more"};
       }
       worst = std::max(worst, best);
     }
-    return "99 % below " + text(worst + microseconds(1)) + " with every setting";
+    return "99 % below " + microsecondsText(worst + microseconds(1)) + " with every setting";
   }
 
  private:
   static std::vector<nanoseconds> timesOf(const MapMaker& maker, const Effort& effort) {
     HeightMap map(kSamples, kSamples);
     std::vector<nanoseconds> times;
-    times.reserve(8 * kEnough);
+    times.reserve(8 * kEnoughSlices);
     const Allowance allowance(effort.perSetting);
     const auto wanted = [&](int maps) {
-      if (times.size() >= kEnough || maps >= kMostMaps) return false;
-      return allowance.left() || (times.size() < kFewest && maps < kFewestMaps);
+      if (times.size() >= kEnoughSlices || maps >= kMostMaps) return false;
+      return allowance.left() || (times.size() < kFewestSlices && maps < kFewestMaps);
     };
     for (int maps = 0; wanted(maps); ++maps) measure(maker, requestOf(maps, kSamples), map.view(), times);
     return times;

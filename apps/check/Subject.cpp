@@ -19,12 +19,22 @@ Subject::Subject(std::shared_ptr<const PluginRegistry> registry, const std::stri
 }
 
 std::string Subject::refusal(const Setting& setting) const {
+  if (info_->kind == PluginKind::deformer) {
+    const auto deformer = registry_->makeDeformer(info_->id);
+    if (!deformer) return deformer.error().message;
+    const auto values = Values::check(info_->parameters, setting, info_->id);
+    return values ? "" : values.error().message;
+  }
   if (info_->kind == PluginKind::filter) {
     const auto filter = registry_->makeFilter(info_->id, setting);
     return filter ? "" : filter.error().message;
   }
   const auto generator = registry_->makeGenerator(info_->id, setting);
   return generator ? "" : generator.error().message;
+}
+
+std::shared_ptr<const Deformer> Subject::deformer() const {
+  return registry_->makeDeformer(info_->id).value();
 }
 
 MapMaker Subject::maker(const Setting& setting) const {

@@ -28,8 +28,10 @@ class Subject {
 
   /// The sentence with which the setting is refused; empty where it is taken.
   std::string refusal(const Setting& setting) const;
-  /// A new instance; the setting must be one that is taken.
+  /// A new instance of a generator or filter; the setting must be one that is taken.
   MapMaker maker(const Setting& setting) const;
+  /// A new instance of a deformer, whose settings are its stamps'; it must be one that can be made.
+  std::shared_ptr<const Deformer> deformer() const;
 
  private:
   std::shared_ptr<const PluginRegistry> registry_;

@@ -1,6 +1,7 @@
 #include "apps/fly/FlyScene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -72,6 +73,7 @@ FlyScene::FlyScene(const Daylight& light, Engine& engine)
   auto* drawn = new SoCallback;
   drawn->setCallback(landIsDrawn, this);
   root_->addChild(drawn);
+  root_->addChild(ring_.node());
   root_->addChild(depth_.node());
   depth_.node()->addChild(sight_.node());
   for (std::size_t index = 0; index < engine.objectCount(); ++index) {
@@ -101,6 +103,34 @@ void FlyScene::freeze(const Viewpoint& eye, double aspect) {
 void FlyScene::thaw() {
   frozen_.reset();
   sight_.hide();
+}
+
+void FlyScene::setRing(const std::optional<Position>& middle, double radius) {
+  ringMiddle_ = middle;
+  ringRadius_ = radius;
+}
+
+// On the triangles as they are drawn; where there are none, as high as its middle.
+void FlyScene::showRing(const Engine& engine) {
+  const std::optional<double> base = ringMiddle_ ? engine.drawnHeight(*ringMiddle_) : std::nullopt;
+  if (!base) return ring_.hide();
+  const double pitch = engine.world().pitch();
+  const auto at = [&](double turn, double radius) {
+    const double east = radius * std::sin(turn), north = radius * std::cos(turn);
+    const Result<Position> there = ringMiddle_->movedBy(east, north, pitch);
+    const std::optional<double> height = there ? engine.drawnHeight(*there) : std::nullopt;
+    return SbVec3f(static_cast<float>(east), static_cast<float>(north),
+                   static_cast<float>(height.value_or(*base) - *base));
+  };
+  constexpr double kFullTurn = 2.0 * std::numbers::pi, kCross = 0.15;
+  std::array<SbVec3f, ToolRing::kPoints> around;
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    around[k] = at(kFullTurn * static_cast<double>(k) / ToolRing::kPoints, ringRadius_);
+  }
+  const double arm = kCross * ringRadius_;
+  const std::array<SbVec3f, 4> cross{at(0.0, arm), at(0.5 * kFullTurn, arm), at(0.25 * kFullTurn, arm),
+                                     at(0.75 * kFullTurn, arm)};
+  ring_.show(place(*ringMiddle_, *base, pitch), around, cross);
 }
 
 double FlyScene::viewDistance(const Engine& engine, const Pose& eye) const {
@@ -155,9 +185,8 @@ void FlyScene::show(Flight& flight, const Viewpoint& view, CameraRig::Person per
   if (zero_.follow(eye.position, eye.height, pitch)) moveZero(pitch);
   if (std::exchange(changes_, flight.changes()) != flight.changes()) showOtherLand();
   terrain_->setScene(flight.engine().scene());
-  // The eye that detail is chosen for is the active object, wherever the camera is.
-  const Motion chosenFor = flight.activeObject().motion();
-  terrain_->setDetailEye(SbVec3d(this->place(chosenFor.position, chosenFor.height, pitch)));
+  const DetailEye detailEye = flight.detailEye();
+  terrain_->setDetailEye(SbVec3d(this->place(detailEye.position, detailEye.height, pitch)));
   setViewDistance(viewDistance(flight.engine(), eye));
   setPlanes();
 
@@ -173,6 +202,7 @@ void FlyScene::show(Flight& flight, const Viewpoint& view, CameraRig::Person per
     models_[index]->setVisible(frozen_ || person == CameraRig::Person::third || index != flight.active());
     models_[index]->show(this->place(motion.position, motion.height, pitch), object.attitude(), dt);
   }
+  showRing(flight.engine());
   if (!frozen_) return;
   const Pose& there = frozen_->eye.pose;
   sight_.show(turnOf(there), frozen_->eye.fieldOfView, frozen_->aspect,

@@ -14,6 +14,7 @@
 #include "apps/fly/ObjectModel.h"
 #include "apps/fly/SightLines.h"
 #include "apps/fly/SkyDome.h"
+#include "apps/fly/ToolRing.h"
 #include "coin/SceneZero.h"
 
 class SoAction;
@@ -48,6 +49,9 @@ class FlyScene {
   void freeze(const Viewpoint& eye, double aspect);
   void thaw();
 
+  /// From the next picture on a ring of this radius [m] lies on the ground there; without a place none does.
+  void setRing(const std::optional<Position>& middle, double radius);
+
   /// Shows the flight as it is now, seen from `view`; in first person the object one sits in is left out.
   void show(Flight& flight, const Viewpoint& view, CameraRig::Person person, double dt);
 
@@ -60,6 +64,7 @@ class FlyScene {
   void moveZero(double pitch);
   void setViewDistance(double distance);
   void setPlanes();
+  void showRing(const Engine& engine);
   static void landIsDrawn(void* scene, SoAction* action);
   void showOtherLand();
 
@@ -71,6 +76,9 @@ class FlyScene {
   SkyDome sky_;
   DepthShader depth_;
   std::vector<std::unique_ptr<ObjectModel>> models_;
+  ToolRing ring_;
+  std::optional<Position> ringMiddle_;
+  double ringRadius_ = 0.0;  // [m]
   SightLines sight_;
   struct Frozen {
     Viewpoint eye;

@@ -64,6 +64,7 @@ FlyWindow::FlyWindow(Flight& flight, const Daylight& light, QSize size, Remake r
   area_->setOverlay([this](QSize pixels) { display_.draw(pixels); });
   QWidget* canvas = area_->getGLWidget();
   canvas->setFocusPolicy(Qt::StrongFocus);
+  canvas->setMouseTracking(true);
   canvas->installEventFilter(this);  // after SoQt's own, so it sees the events first
   setFocusProxy(canvas);
   timer_.callOnTimeout(this, [this] { tick(); });
@@ -118,6 +119,7 @@ void FlyWindow::tick() {
   } else {
     rig_.update(dt, keys_.cameraMoves(), poseOf(flight_.activeObject()));
   }
+  dig();
   updateScene(step);
   if (last || now - lastFigures_ > kBetweenFigures) {
     showFigures();
@@ -157,7 +159,7 @@ Viewpoint FlyWindow::viewpoint() const {
 void FlyWindow::updateScene(double dt) {
   const Viewpoint view = viewpoint();
   if (!frozen_) fitDetail(view.fieldOfView);
-  if (colours_ == LandColours::errors) tintEye_ = eye();
+  if (colours_ == LandColours::errors) lookForColours();
   scene_.show(flight_, view, rig_.person(), dt);
   flight_.engine().setRendererBytes(scene_.bufferBytes());
 }
@@ -180,8 +182,13 @@ Eye FlyWindow::eye() const {
   return {view.pose.position, view.pose.height, lensPixels(area_->pixels().height(), view.fieldOfView)};
 }
 
+void FlyWindow::lookForColours() {
+  tintEye_ = eye();
+  tintMovedWith_ = flight_.detailEye();
+}
+
 PixelError FlyWindow::pixelError() const {
-  return teren::pixelError(flight_.engine().world(), *flight_.engine().scene(), eye());
+  return teren::pixelError(flight_.engine().world(), *flight_.engine().scene(), eye(), flight_.detailEye());
 }
 
 double FlyWindow::wantedPixelError() const {
@@ -200,6 +207,7 @@ void FlyWindow::showFigures() {
   figures.pixelError = pixelError();
   std::vector<DisplayLine> lines = flight_.activeObject().headUpDisplay();
   for (DisplayLine& line : costLines(figures)) lines.push_back(std::move(line));
+  addToolLines(lines);
   if (frozen_) lines.push_back({"view", "frozen; F4 goes on"});
   display_.setLines(std::move(lines));
   showLegend(engine);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <QImage>
 #include <QPoint>
@@ -24,6 +25,7 @@
 #include "apps/fly/KeyMap.h"
 #include "apps/fly/LandColours.h"
 #include "apps/fly/LandSource.h"
+#include "apps/fly/ToolBelt.h"
 #include "apps/window/FrameStatistics.h"
 #include "apps/window/RenderArea.h"
 
@@ -55,7 +57,8 @@ class FlyWindow : public QWidget {
   /// [ms] between the moments at which successive frames were presented.
   const FrameStatistics& frameTimes() const noexcept { return frameTimes_; }
   std::size_t bytes() const;  ///< the engine's, the graphics buffers included
-  /// Of the land as it is seen now; while frozen, from the eye it was chosen for.
+  /// Of the land as it is seen now, its vertices moved with the active aircraft; while frozen, from where the
+  /// camera was then.
   PixelError pixelError() const;
   /// Where the camera is.
   Viewpoint viewpoint() const;
@@ -64,6 +67,10 @@ class FlyWindow : public QWidget {
   bool showsGraph() const noexcept { return graphShown_; }
   /// Whether all but the camera stands still.
   bool isFrozen() const noexcept { return frozen_.has_value(); }
+  const ToolBelt& tools() const noexcept { return tools_; }
+  /// Where the tool in hand would press now: at the mouse where that moved last, else in front of the active
+  /// object.
+  std::optional<Position> aim() const;
   /// The last sentence it has shown the person.
   const std::string& lastSentence() const noexcept { return lastSentence_; }
 
@@ -77,6 +84,7 @@ class FlyWindow : public QWidget {
   void updateScene(double dt);
   /// From where errors are seen.
   Eye eye() const;
+  void lookForColours();
   /// Tells the engine the size of the picture, which detail by error depends on.
   void fitDetail(double fieldOfView);
   void showFigures();
@@ -89,6 +97,18 @@ class FlyWindow : public QWidget {
   void zoom(double steps);
   void act(Action action);
   void actOnLook(Action action);
+  void actOnTools(Action action);
+  bool canDig();
+  /// Once a frame: shows where the tool points, and presses it while its key or button is held.
+  void dig();
+  /// To the ground that is seen.
+  void fitTools();
+  /// Or redoes.
+  void undo(bool back);
+  void takeTool();
+  void sayTool();
+  std::string toolText() const;
+  void addToolLines(std::vector<DisplayLine>& lines);
   /// Changes what is drawn, by steps or to what a slider says.
   void chooseDetail(const std::function<void(DetailSettings&)>& change);
   void showColours();
@@ -112,10 +132,15 @@ class FlyWindow : public QWidget {
   RenderArea* area_;  // owned; goes before its widgets
   DetailPanel* panel_;
   std::optional<QPoint> dragFrom_;
+  ToolBelt tools_;
+  std::optional<QPoint> mouse_;  // over the picture
+  bool aimsByMouse_ = false, digsByMouse_ = false;
+  bool digsOnce_ = false;  // pressed since the last frame, however short
   bool paused_ = false, leaving_ = false, pictureWanted_ = false;
   bool wires_ = false, graphShown_ = false;
   LandColours colours_ = LandColours::natural;
-  Eye tintEye_;  // of the picture that is drawn
+  Eye tintEye_;              // of the picture that is drawn
+  DetailEye tintMovedWith_;  // likewise
   struct Frozen {
     Viewpoint eye;
     FreeCamera camera;

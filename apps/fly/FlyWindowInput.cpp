@@ -40,6 +40,10 @@ bool FlyWindow::eventFilter(QObject* watched, QEvent* event) {
       keys_.releaseAll();
       flight_.engine().letGo();
       dragFrom_.reset();
+      digsByMouse_ = false;
+      break;
+    case QEvent::Leave:
+      mouse_.reset();
       break;
     default:
       break;
@@ -50,36 +54,57 @@ bool FlyWindow::eventFilter(QObject* watched, QEvent* event) {
 bool FlyWindow::keyEvent(const QKeyEvent& event) {
   const bool keypad = event.modifiers().testFlag(Qt::KeypadModifier);
   const bool pressed = event.type() == QEvent::KeyPress;
-  const int key = frozen_ && !keypad ? KeyMap::whileFrozen(event.key()) : event.key();
+  const bool shifted = !keypad && event.modifiers().testFlag(Qt::ShiftModifier);
+  const int meant = shifted ? KeyMap::withShift(event.key()) : event.key();
+  const int key = frozen_ && !keypad ? KeyMap::whileFrozen(meant) : meant;
   const std::optional<Action> action = KeyMap::action(key, keypad);
   if (!action) {
     if (frozen_) return true;  // nobody is to be steered
     const std::string name = KeyMap::name(key, keypad);
     return !name.empty() && (event.isAutoRepeat() || flight_.engine().handle({name, pressed ? 1.0 : 0.0}));
   }
-  if (event.isAutoRepeat()) return true;
+  if (event.isAutoRepeat() && !isRepeatedAction(*action)) return true;
   if (!pressed) {
     keys_.release(key, keypad);
   } else if (isHeldAction(*action)) {
     keys_.press(key, keypad);
+    if (*action == Action::dig && canDig()) {
+      digsOnce_ = true;
+      aimsByMouse_ = false;
+    }
   } else {
     act(*action);
   }
   return true;
 }
 
+// The right button presses the tool in hand, the others look around.
 bool FlyWindow::mouseEvent(const QEvent& event) {
   const auto& mouse = static_cast<const QMouseEvent&>(event);
-  if (event.type() == QEvent::MouseMove && dragFrom_) {
-    const QPoint moved = mouse.pos() - *dragFrom_;
-    const double right = kRadiansPerPixel * moved.x(), up = -kRadiansPerPixel * moved.y();
-    frozen_ ? frozen_->camera.look(right, up) : rig_.look(right, up);
-    dragFrom_ = mouse.pos();
+  const bool digs = mouse.button() == Qt::RightButton;
+  if (event.type() == QEvent::MouseMove) {
+    if (dragFrom_) {
+      const QPoint moved = mouse.pos() - *dragFrom_;
+      const double right = kRadiansPerPixel * moved.x(), up = -kRadiansPerPixel * moved.y();
+      frozen_ ? frozen_->camera.look(right, up) : rig_.look(right, up);
+      dragFrom_ = mouse.pos();
+    } else {
+      aimsByMouse_ = true;
+    }
   } else if (event.type() == QEvent::MouseButtonPress) {
-    dragFrom_ = mouse.pos();
+    if (!digs) {
+      dragFrom_ = mouse.pos();
+    } else if (canDig()) {
+      digsByMouse_ = digsOnce_ = aimsByMouse_ = true;
+    }
   } else if (event.type() == QEvent::MouseButtonRelease) {
-    dragFrom_.reset();
+    if (digs) {
+      digsByMouse_ = false;
+    } else {
+      dragFrom_.reset();
+    }
   }
+  mouse_ = mouse.pos();
   return true;
 }
 
@@ -156,7 +181,7 @@ void FlyWindow::actOnLook(Action action) {
       graphShown_ = !graphShown_;
       return display_.setGraph(graphShown_ ? &graph_ : nullptr);
     default:
-      return;  // held keys are read every frame
+      return actOnTools(action);
   }
 }
 
@@ -176,7 +201,7 @@ void FlyWindow::chooseDetail(const std::function<void(DetailSettings&)>& change)
 }
 
 void FlyWindow::showColours() {
-  tintEye_ = eye();
+  lookForColours();
   switch (colours_) {
     case LandColours::levels:
       scene_.setTint([](const Mesh& mesh) { return levelColour(mesh.nodeLevel); });
@@ -184,7 +209,8 @@ void FlyWindow::showColours() {
     case LandColours::errors:
       scene_.setTint([this](const Mesh& mesh) {
         const Engine& engine = flight_.engine();
-        const double error = teren::pixelError(engine.world(), mesh, tintEye_, engine.scene()->morph());
+        const double error =
+            teren::pixelError(engine.world(), mesh, tintEye_, engine.scene()->morph(), tintMovedWith_);
         return errorColour(error / wantedPixelError());
       });
       break;
@@ -233,7 +259,7 @@ void FlyWindow::reload() {
   std::string changed;
   for (const std::string& id : land->changed) changed += (changed.empty() ? "" : ", ") + id;
   say((changed.empty() ? "no plugin has changed" : "changed: " + changed) + "; making the land anew");
-  flight_.goOverTo(std::move(land->engine));
+  flight_.goOverTo(std::move(land->engine), std::move(land->world));
 }
 
 // What is wrong with plugins and objects, and that the land asked for is there.
@@ -241,6 +267,8 @@ void FlyWindow::tellMessages() {
   if (changes_ != flight_.changes()) say("this is the new land");
   changes_ = flight_.changes();
   for (const std::string& message : flight_.engine().takeMessages()) complain(message);
+  if (!flight_.edits()) return;
+  for (const std::string& message : flight_.edits()->takeMessages()) complain(message);
 }
 
 void FlyWindow::toggleFullScreen() {

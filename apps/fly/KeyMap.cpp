@@ -52,6 +52,14 @@ constexpr std::array kRows{
     Row{Qt::Key_P, Where::anywhere, Action::pause},
     Row{Qt::Key_F1, Where::anywhere, Action::help},
     Row{Qt::Key_F5, Where::anywhere, Action::reload},
+    Row{Qt::Key_G, Where::anywhere, Action::dig},
+    Row{Qt::Key_T, Where::anywhere, Action::nextTool},
+    Row{Qt::Key_V, Where::anywhere, Action::smallerTool},
+    Row{Qt::Key_B, Where::anywhere, Action::largerTool},
+    Row{Qt::Key_N, Where::anywhere, Action::shallowerTool},
+    Row{Qt::Key_M, Where::anywhere, Action::deeperTool},
+    Row{Qt::Key_Z, Where::anywhere, Action::undo},
+    Row{Qt::Key_Y, Where::anywhere, Action::redo},
     Row{Qt::Key_F11, Where::anywhere, Action::fullScreen},
     Row{Qt::Key_F12, Where::anywhere, Action::screenshot},
     Row{Qt::Key_Escape, Where::anywhere, Action::quit},
@@ -64,14 +72,19 @@ constexpr std::array kFrozenKeys{
     std::pair{Qt::Key_Right, Qt::Key_L},  std::pair{Qt::Key_D, Qt::Key_L},
     std::pair{Qt::Key_R, Qt::Key_PageUp}, std::pair{Qt::Key_F, Qt::Key_PageDown}};
 
-constexpr std::array<KeyHelp, 19> kHelp{{
+constexpr std::array<KeyHelp, 24> kHelp{{
     {"mouse drag", "look around"},
     {"wheel", "zoom"},
     {"Num 8 2 4 6  or  I K J L", "camera forward, back, left, right"},
     {"PageUp, PageDown", "camera up, down"},
     {"Num 5  or  Home", "camera back to its default"},
     {"C", "first or third person"},
-    {"Tab", "next aircraft"},
+    {"Tab", "next aircraft, or the truck"},
+    {"T", "tool: dig, heap, smooth, crater, rake, shovel, pour, none"},
+    {"G  or  right mouse button", "press it ahead, or where the mouse is; hold to draw it along"},
+    {"V, B", "smaller tool, larger tool"},
+    {"N, M", "shallower, deeper"},
+    {"Z, Y  or  Ctrl+Z, Ctrl+Shift+Z", "undo, redo a stroke; of an earlier flight, one stamp"},
     {"+, -", "finer land, coarser land"},
     {". (period), , (comma)", "see farther, less far"},
     {"F2", "sliders for both"},
@@ -108,6 +121,10 @@ bool isHeldAction(Action action) noexcept {
   return action < Action::cameraReset;
 }
 
+bool isRepeatedAction(Action action) noexcept {
+  return action == Action::undo || action == Action::redo;
+}
+
 std::optional<Action> KeyMap::action(int key, bool keypad) noexcept {
   const auto row = std::find_if(kRows.begin(), kRows.end(), [key, keypad](const Row& candidate) {
     const bool here = candidate.where == Where::anywhere || (candidate.where == Where::keypad) == keypad;
@@ -121,6 +138,10 @@ int KeyMap::whileFrozen(int key) noexcept {
   const auto found = std::find_if(kFrozenKeys.begin(), kFrozenKeys.end(),
                                   [key](const auto& each) { return each.first == key; });
   return found == kFrozenKeys.end() ? key : int{found->second};
+}
+
+int KeyMap::withShift(int key) noexcept {
+  return key == Qt::Key_Z ? int{Qt::Key_Y} : key;
 }
 
 std::string KeyMap::name(int key, bool keypad) {

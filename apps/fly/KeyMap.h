@@ -22,6 +22,7 @@ enum class Action {
   cameraRight,
   cameraUp,
   cameraDown,
+  dig,
   // once per press
   cameraReset,
   switchPerson,
@@ -38,12 +39,21 @@ enum class Action {
   pause,
   help,
   reload,
+  nextTool,
+  smallerTool,
+  largerTool,
+  shallowerTool,
+  deeperTool,
+  undo,
+  redo,
   fullScreen,
   screenshot,
   quit,
 };
 
 bool isHeldAction(Action action) noexcept;
+/// Whether a key that repeats does it again and again.
+bool isRepeatedAction(Action action) noexcept;
 
 /// The key table of the demo.
 class KeyMap {
@@ -55,6 +65,10 @@ class KeyMap {
   /// The key of the camera that a key of an object stands for while objects stand still and the camera flies
   /// alone; other keys are themselves.
   static int whileFrozen(int key) noexcept;
+
+  /// With Shift, Z means what Y means, as in programs in which Ctrl goes with both; other keys are
+  /// themselves.
+  static int withShift(int key) noexcept;
 
   /// What an object calls a Qt key (InputEvent::name); empty for keys that have no name here.
   static std::string name(int key, bool keypad);
@@ -72,6 +86,7 @@ class HeldKeys {
   void releaseAll() noexcept { keys_.clear(); }
 
   CameraMoves cameraMoves() const;
+  bool dig() const { return held(Action::dig); }
 
  private:
   bool held(Action action) const;

@@ -1,16 +1,32 @@
 #include "apps/fly/LandSource.h"
 
+#include <mutex>
 #include <utility>
 
 #include "teren/Parameter.h"
 
 namespace teren {
 
+struct LandSource::Deformers {
+  std::mutex mutex;
+  DeformerSource source;
+};
+
 LandSource::LandSource(const WorldOptions& world, const FlyCommandLine& fly)
     : world_(world),
       fly_(fly),
       registry_(PluginRegistry::load(PluginRegistry::searchPath(), ModuleLoading::copied)),
-      latest_(registry_) {}
+      latest_(registry_),
+      deformers_(std::make_shared<Deformers>()) {
+  deformers_->source = deformersOf(registry_);
+}
+
+DeformerSource LandSource::deformers() const {
+  return [shared = deformers_](std::string_view id) {
+    const std::lock_guard lock(shared->mutex);
+    return shared->source(id);
+  };
+}
 
 Result<NewLand> LandSource::make() {
   if (pitch_ > 0.0) {
@@ -29,8 +45,12 @@ Result<NewLand> LandSource::make() {
   if (!options) return options.error();
   Result<std::unique_ptr<Engine>> engine = Engine::create(*world, options->engine);
   if (!engine) return engine.error();
-  NewLand land{std::move(*engine), *options, latest_->changedSince(*registry_)};
+  NewLand land{*world, std::move(*engine), *options, latest_->changedSince(*registry_)};
   registry_ = latest_;
+  {
+    const std::lock_guard lock(deformers_->mutex);
+    deformers_->source = deformersOf(registry_);
+  }
   pitch_ = pitch;
   return land;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "teren/EditedGround.h"
 #include "teren/Engine.h"
 #include "teren/PluginRegistry.h"
 #include "teren/Result.h"
@@ -17,6 +18,7 @@ namespace teren {
 
 /// The land as world file and plugins are on disk.
 struct NewLand {
+  std::shared_ptr<const World> world;
   std::unique_ptr<Engine> engine;
   FlyOptions options;
   std::vector<std::string> changed;  ///< ids of plugins that are not what they were before
@@ -33,12 +35,18 @@ class LandSource {
   /// than before. Then nothing has changed, and the next try compares with the same plugins again.
   Result<NewLand> make();
 
+  /// The deformers of the land that was made last, whichever that is when one is asked for; any thread may.
+  /// Lives on without this.
+  DeformerSource deformers() const;
+
  private:
+  struct Deformers;
   const WorldOptions& world_;
   const FlyCommandLine& fly_;
   std::shared_ptr<const PluginRegistry> registry_;  // of the land that was made last
   std::shared_ptr<const PluginRegistry> latest_;    // loaded last: a try that was refused loads nothing twice
-  double pitch_ = 0.0;                              // [m] 0: no land was made yet
+  std::shared_ptr<Deformers> deformers_;
+  double pitch_ = 0.0;  // [m] 0: no land was made yet
 };
 
 }  // namespace teren

@@ -10,6 +10,9 @@ constexpr std::array kDistances{1e3,  1.5e3, 2e3,  3e3,  4e3,  5e3,  6e3,  8e3, 
                                 15e3, 20e3,  25e3, 30e3, 40e3, 50e3, 60e3, 80e3, 100e3};
 constexpr std::array kPixelErrors{0.25, 0.35, 0.5,  0.7,  1.0,  1.4,  2.0,  2.8, 4.0,
                                   5.6,  8.0,  11.0, 16.0, 22.0, 32.0, 45.0, 64.0};
+constexpr std::array kToolSizes{3.0,  4.0,  6.0,  8.0,  10.0, 12.0,  16.0,
+                                20.0, 30.0, 40.0, 60.0, 80.0, 120.0, 200.0};
+constexpr std::array kToolDepths{0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 25.0, 50.0};
 
 }  // namespace
 
@@ -23,6 +26,14 @@ Steps Steps::pixelErrors() noexcept {
 
 double Steps::at(int index) const noexcept {
   return values_[static_cast<std::size_t>(std::clamp(index, 0, count() - 1))];
+}
+
+Steps Steps::toolSizes() noexcept {
+  return Steps(kToolSizes);
+}
+
+Steps Steps::toolDepths() noexcept {
+  return Steps(kToolDepths);
 }
 
 int Steps::nearest(double value) const noexcept {

@@ -12,6 +12,10 @@ class Steps {
   static Steps distances() noexcept;
   /// [px] How far it may be off: 0.25 to 64.
   static Steps pixelErrors() noexcept;
+  /// [m] How large a tool is, its radius: 3 to 200 m.
+  static Steps toolSizes() noexcept;
+  /// [m] How deep it goes: 0.25 to 50 m.
+  static Steps toolDepths() noexcept;
 
   int count() const noexcept { return static_cast<int>(values_.size()); }
   /// 0 ... count() - 1; others are brought there.

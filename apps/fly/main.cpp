@@ -1,6 +1,8 @@
 // teren-fly: fly around the landscape.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <unistd.h>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "apps/fly/FlyWindow.h"
 #include "apps/fly/LandSource.h"
 #include "apps/options/CommandLine.h"
+#include "apps/options/EditOptions.h"
 #include "apps/options/LargeBlocks.h"
 #include "apps/options/WorldOptions.h"
 #include "apps/window/FrameReport.h"
@@ -34,18 +37,19 @@ bool settle(FlyWindow& window) {
   return settled;
 }
 
-Result<void> saveResults(const FlyOptions& options, const FlyWindow& window, const Flight& flight) {
+Result<void> saveResults(const FlyOptions& options, const FlyWindow& window, Flight& flight) {
   if (!options.window.screenshot.empty()) {
     const Result<void> saved = savePicture(window.lastPicture(), options.window.screenshot);
     if (!saved) return saved;
   }
   if (options.window.stats.empty()) return {};
-  return saveText(frameReport(window.frameTimes(), flight.engineTimes(), flight.engine().figures(),
-                              window.bytes(), window.pixelError()),
-                  options.window.stats);
+  return saveText(
+      frameReport(window.frameTimes(), flight.engineTimes(), flight.engine().figures(), window.bytes(),
+                  window.pixelError(), flight.engine().options().view.detail, flight.edits()->edits()),
+      options.window.stats);
 }
 
-Result<void> fly(NewLand land, const FlyWindow::Remake& remake) {
+Result<void> fly(NewLand land, std::unique_ptr<LandEdits> edits, const FlyWindow::Remake& remake) {
   const FlyOptions& options = land.options;
   const Daylight daylight;
   AircraftStart start;
@@ -54,7 +58,14 @@ Result<void> fly(NewLand land, const FlyWindow::Remake& remake) {
   const Result<Position> position =
       Position::fromMetres(kStartEast, kStartNorth, land.engine->world().pitch());
   if (position) start.position = *position;
-  Flight flight(std::move(land.engine), start);
+  std::optional<TruckStart> truck;
+  if (const auto place = placeForTruck(*land.world, start.position, start.waterLevel)) {
+    const Offset away = offset(start.position, *place, land.world->pitch());
+    truck = TruckStart{
+        .position = *place, .heading = std::atan2(away.east, away.north), .waterLevel = start.waterLevel};
+  }
+  Flight flight(std::move(land.engine), start, truck);
+  flight.setEdits(std::move(edits));
   flight.aircraft().front()->setAutopilot(options.autopilot);
   FlyWindow window(flight, daylight, options.window.size, remake);
   if (!settle(window)) return {};
@@ -71,13 +82,23 @@ Result<void> fly(NewLand land, const FlyWindow::Remake& remake) {
 int run(int argc, char** argv) {
   CLI::App application("Flies around an endless landscape; F1 shows the keys.", "teren-fly");
   const WorldOptions worldOptions(application);
+  const EditOptions editOptions(application, "[beside the world's file, else in the user's data folder]");
   const FlyCommandLine commandLine(application);
   if (const std::optional<ExitCode> end = parseCommandLine(application, argc, argv)) return *end;
   LandSource source(worldOptions, commandLine);
   Result<NewLand> land = source.make();
   if (!land) return fail(application, kWrongInput, land.error().message);
-  const Result<void> flown = runWithWindows(
-      "teren-fly", argv, [&] { return fly(std::move(*land), [&source] { return source.make(); }); });
+  if (editOptions.given()) {
+    if (const auto named = editOptions.named(); !named) {
+      return fail(application, kWrongInput, named.error().message);
+    }
+  }
+  const Result<void> flown = runWithWindows("teren-fly", argv, [&] {
+    auto edits = std::make_unique<LandEdits>(land->world, source.deformers(), [&](const World& world) {
+      return editOptions.file(worldOptions, world);
+    });
+    return fly(std::move(*land), std::move(edits), [&source] { return source.make(); });
+  });
   return flown ? kSuccess : fail(application, kWorkFailed, flown.error().message);
 }
 

@@ -15,9 +15,10 @@ namespace teren {
 /// fifth more of a frame.
 inline constexpr ViewSettings kFlyingView{.level = 3, .radius = 5};
 
-/// What teren-fly begins with: detail by error. This is the one place that says how coarse the land is by
-/// default: as fine as two processors without a graphics card draw 30 times a second at 1280 x 720. There the
-/// median frame of a flight takes 38 ms at 8 px, 34.7 at 16, 30.8 at 24 and 30.3 at 32 (doc/accuracy.md).
+/// What teren-fly begins with: detail by error, as fine as two processors without a graphics card draw 30
+/// times a second at 1280 x 720. There the median frame of a flight takes 38 ms at 8 px, 34.7 at 16, 30.8 at
+/// 24 and 30.3 at 32 (doc/accuracy.md). `teren report --frames` judges it by the frames of the machine at
+/// hand; programs that embed an engine begin with DetailSettings' own, by another rule.
 inline constexpr DetailSettings kFlyingDetail{.pixelError = 24.0, .distance = 20'000.0};
 
 /// The same for a world: not farther than so many of its coarsest nodes, since land without coarse layers

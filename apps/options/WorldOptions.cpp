@@ -115,6 +115,11 @@ Result<WorldDescription> WorldOptions::resolve(const PluginRegistry& registry) c
   return description;
 }
 
+std::optional<std::filesystem::path> WorldOptions::file() const {
+  if (world_->count() == 0) return std::nullopt;
+  return argument(*world_);
+}
+
 Result<std::shared_ptr<const World>> WorldOptions::create(const PluginRegistry& registry) const {
   const Result<WorldDescription> description = resolve(registry);
   if (!description) return description.error();

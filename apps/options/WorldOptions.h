@@ -3,6 +3,9 @@
 //           [--blend linear|smooth]; all take [--seed N]; nothing: the world shipped with Teren.
 #pragma once
 
+#include <filesystem>
+#include <optional>
+
 #include <CLI/CLI.hpp>
 
 #include "teren/PluginRegistry.h"
@@ -23,6 +26,9 @@ class WorldOptions {
 
   /// The same, made.
   Result<std::shared_ptr<const World>> create(const PluginRegistry& registry) const;
+
+  /// The description's file, where --world names one.
+  std::optional<std::filesystem::path> file() const;
 
  private:
   Result<WorldDescription> base(const PluginRegistry& registry) const;

@@ -51,40 +51,61 @@ Justification kernelOf(const DefaultsInCode& defaults, const Table& blending) {
           smoothIsRight == (defaults.kernel == BlendKernel::smooth)};
 }
 
+/// The row of a generator and a kernel with or without preserved variance.
+std::optional<std::size_t> blendingRow(const Table& blending, const std::string& generator,
+                                       const std::string& kernel, bool preserve) {
+  for (std::size_t row = 0; row < blending.rows().size(); ++row) {
+    if (blending.text(row, "generator") == generator && blending.text(row, "kernel") == kernel &&
+        (blending.text(row, "preserve variance") == "yes") == preserve) {
+      return row;
+    }
+  }
+  return std::nullopt;
+}
+
 Justification varianceOf(const DefaultsInCode& defaults, const Table& blending) {
   const std::string kernel = nameOf(defaults.kernel);
-  const double with = largest(blending, kernel, true, "ripple of deviation");
-  const double without = largest(blending, kernel, false, "ripple of deviation");
+  std::size_t pairs = 0, better = 0;
+  std::string figures;
+  for (std::size_t with = 0; with < blending.rows().size(); ++with) {
+    const std::string generator = blending.text(with, "generator");
+    const std::optional<std::size_t> without = blendingRow(blending, generator, kernel, false);
+    if (blendingRow(blending, generator, kernel, true) != with || !without) continue;
+    const auto both = [&](const char* column) {
+      return number(blending.number(with, column)) + " % in place of " +
+             number(blending.number(*without, column)) + " %";
+    };
+    figures += " With it the deviation of " + generator + " ripples by " + both("ripple of deviation") +
+               ", its slope by " + both("ripple of slope") + ".";
+    ++pairs;
+    if (blending.number(with, "ripple of deviation") < blending.number(*without, "ripple of deviation")) {
+      ++better;
+    }
+  }
   return {"preserved variance", defaults.preserveVariance ? "yes" : "no",
           "LayerDescription::preserveVariance",
-          "What makes land vary more evenly across a patch. With it the deviation ripples by " +
-              number(with) + " %, without by " + number(without) + " % (table blending, " + kernel +
-              ", the worst of the layers, ripple of deviation); the slope by " +
-              number(largest(blending, kernel, true, "ripple of slope")) + " and " +
-              number(largest(blending, kernel, false, "ripple of slope")) + " %.",
-          (with < without) == defaults.preserveVariance};
+          "Wanted where it makes the land of every layer measured vary more evenly across a patch." +
+              figures + " (table blending, kernel " + kernel + ")",
+          pairs > 0 && (better == pairs) == defaults.preserveVariance};
 }
 
 Justification pixelErrorOf(const DefaultsInCode& defaults, const Table& detail) {
-  double farthest = 0.0;
-  for (std::size_t row = 0; row < detail.rows().size(); ++row) {
-    farthest = std::max(farthest, detail.number(row, "view distance"));
-  }
   std::optional<std::size_t> right, own;
   for (std::size_t row = 0; row < detail.rows().size(); ++row) {
+    if (!isSame(detail.number(row, "view distance"), defaults.distance)) continue;
     const double error = detail.number(row, "pixel error");
     if (isSame(error, defaults.pixelError)) own = row;
-    const bool fits =
-        detail.number(row, "view distance") >= farthest && detail.number(row, "triangles") <= kMostTriangles;
+    const bool fits = detail.number(row, "triangles") <= kMostTriangles;
     if (fits && (!right || error < detail.number(*right, "pixel error"))) right = row;
   }
   Justification answer{"pixel error", number(defaults.pixelError) + " px", "DetailSettings::pixelError",
-                       "The smallest whose view reaches " + number(farthest) +
-                           " m under the cap with at most " + rounded(kMostTriangles, 3) + " triangles.",
+                       "The smallest whose view of " + number(defaults.distance) +
+                           " m, the default, fits under the cap with at most " + rounded(kMostTriangles, 3) +
+                           " triangles.",
                        right && own && right == own};
   const auto tell = [&](const char* begin, std::size_t row) {
     answer.why += begin + detail.text(row, "pixel error") + " px: " + detail.text(row, "triangles") +
-                  " triangles as far as " + detail.text(row, "view distance") + " m, true error at most " +
+                  " triangles, " + number(detail.number(row, "memory")) + " MiB, true error at most " +
                   number(detail.number(row, "true max")) + " px, p99 " +
                   number(detail.number(row, "true p99")) + " px.";
   };
@@ -95,30 +116,63 @@ Justification pixelErrorOf(const DefaultsInCode& defaults, const Table& detail) 
   return answer;
 }
 
+Justification flyingPixelErrorOf(const DefaultsInCode& defaults, const Table& frames) {
+  std::optional<std::size_t> right;
+  bool ownIsThere = false;
+  std::string figures;
+  for (std::size_t row = 0; row < frames.rows().size(); ++row) {
+    if (!isSame(frames.number(row, "view distance"), defaults.flyingDistance)) continue;
+    if (!isSame(frames.number(row, "lines"), kFlyingLines)) continue;
+    const double error = frames.number(row, "pixel error"), median = frames.number(row, "frame median");
+    ownIsThere = ownIsThere || isSame(error, defaults.flyingPixelError);
+    const bool isSmooth = median * kSmooth <= 1e3;
+    if (isSmooth && (!right || error < frames.number(*right, "pixel error"))) right = row;
+    figures += (figures.empty() ? " " : ", ") + number(error) + " px: " + number(median) + " ms, p99 " +
+               number(frames.number(row, "frame p99")) + " ms";
+  }
+  Justification answer{"pixel error of teren-fly", number(defaults.flyingPixelError) + " px", "kFlyingDetail",
+                       "The smallest at which the median frame of a view of " +
+                           number(defaults.flyingDistance) + " m, of " + number(kFlyingLines) +
+                           " lines, is drawn " + number(kSmooth) + " times a second.",
+                       std::nullopt};
+  if (!figures.empty()) answer.why += figures + " (table frames).";
+  if (!ownIsThere) return answer;
+  answer.holds = right && isSame(frames.number(*right, "pixel error"), defaults.flyingPixelError);
+  return answer;
+}
+
 Justification budgetOf(const DefaultsInCode& defaults, const Table& scheduling) {
-  std::optional<std::size_t> right, own;
+  std::optional<std::size_t> largest, least;  // within the frame's share; that suffices
+  const auto suffices = [&](std::size_t row) {
+    return scheduling.number(row, "missing") == 0.0 && scheduling.number(row, "error reached") >= kReached;
+  };
   for (std::size_t row = 0; row < scheduling.rows().size(); ++row) {
     if (scheduling.number(row, "workers") != 0.0) continue;
     const double budget = scheduling.number(row, "budget");
-    if (isSame(budget, defaults.budget)) own = row;
-    const bool enough =
-        scheduling.number(row, "missing") == 0.0 && scheduling.number(row, "error reached") >= kReached;
-    if (enough && (!right || budget < scheduling.number(*right, "budget"))) right = row;
+    const auto isMore = [&](const std::optional<std::size_t>& than) {
+      return !than || budget > scheduling.number(*than, "budget");
+    };
+    if (budget <= kShareOfFrame && isMore(largest)) largest = row;
+    if (suffices(row) && (!least || !isMore(least))) least = row;
   }
-  Justification answer{"budget of an update", number(defaults.budget) + " ms", "teren flight --budget-us",
-                       "The smallest with which a flight at 300 m/s without workers misses no ground and has "
-                       "the error wanted in " +
-                           number(kReached) + " % of the looks.",
-                       right && own && right == own};
-  const auto tell = [&](const char* begin, std::size_t row) {
+  Justification answer{
+      "budget of an update", number(defaults.budget) + " ms", "teren flight --budget-us",
+      "The largest within an eighth of a frame, of 60 a second: what a program can spare "
+      "without missing one. It has to suffice: a flight at 300 m/s without workers, with "
+      "the default detail, misses no ground and has the error wanted in " +
+          number(kReached) +
+          " % of the looks. Budgets run by the wall's clock, so what other programs do meanwhile counts "
+          "against them.",
+      largest && suffices(*largest) && isSame(scheduling.number(*largest, "budget"), defaults.budget)};
+  const auto tell = [&](const std::string& begin, std::size_t row) {
     answer.why += begin + scheduling.text(row, "budget") + " ms: " + scheduling.text(row, "missing") +
                   " updates missed ground, the error was reached in " +
                   number(scheduling.number(row, "error reached")) + " %, an update takes " +
                   number(scheduling.number(row, "update p99")) + " us (p99).";
   };
-  if (right) tell(" By that rule ", *right);
-  if (own && own != right) tell(" The default ", *own);
-  if (!right) answer.why += " No row does.";
+  if (largest) tell(" ", *largest);
+  if (least && least != largest) tell(" The smallest that suffices, ", *least);
+  if (!least) answer.why += " No row suffices.";
   answer.why += " (table scheduling)";
   return answer;
 }
@@ -126,9 +180,9 @@ Justification budgetOf(const DefaultsInCode& defaults, const Table& scheduling) 
 }  // namespace
 
 std::vector<Justification> justify(const DefaultsInCode& defaults, const Table& blending, const Table& detail,
-                                   const Table& scheduling) {
+                                   const Table& frames, const Table& scheduling) {
   return {kernelOf(defaults, blending), varianceOf(defaults, blending), pixelErrorOf(defaults, detail),
-          budgetOf(defaults, scheduling)};
+          flyingPixelErrorOf(defaults, frames), budgetOf(defaults, scheduling)};
 }
 
 }  // namespace teren

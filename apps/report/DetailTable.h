@@ -18,8 +18,8 @@ namespace teren {
 Result<void> calibrate(const std::shared_ptr<const World>& world, const GoOn& goOn);
 
 /// A row a pixel error, of a standing eye 100 m above the ground near the world's zero; each in a new engine
-/// without workers, at the largest of the distances of `effort` at which the cap still holds it. The world
-/// should be calibrated.
+/// without workers, at the largest of the distances of `effort` at which the cap still holds it, and once
+/// more at the usual distance where that is nearer. The world should be calibrated.
 Result<Table> measureDetail(const std::shared_ptr<const World>& world, std::span<const double> pixelErrors,
                             const Effort& effort, const GoOn& goOn);
 

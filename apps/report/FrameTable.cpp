@@ -20,10 +20,17 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 20U;
 struct Figure {
   const char *group, *name;  // group may be empty
   Column column;
+  bool mayLack = false;  // all of its group may be missing
 };
 
 std::vector<Figure> figures() {
-  return {{"", "frames", {"frames", "", "drawn"}},
+  return {{"detail",
+           "pixel_error",
+           {"pixel error", "px", "DetailSettings::pixelError; nothing of a view of one level"},
+           true},
+          {"detail", "distance", {"view distance", "m", "the same"}, true},
+          {"detail", "lines", {"lines", "px", "of the picture"}, true},
+          {"", "frames", {"frames", "", "drawn"}},
           {"frame_ms", "p50", {"frame median", "ms", "wall time of a frame"}},
           {"frame_ms", "p99", {"frame p99", "ms", "the same"}},
           {"frame_ms", "max", {"frame max", "ms", "the same"}},
@@ -35,8 +42,9 @@ std::vector<Figure> figures() {
           {"pixel_error", "max", {"promised max", "px", "at the end"}}};
 }
 
-Result<double> numberIn(const nlohmann::json& json, const Figure& figure, const std::string& file) {
+Result<Cell> numberIn(const nlohmann::json& json, const Figure& figure, const std::string& file) {
   const std::string group = figure.group;
+  if (figure.mayLack && !json.contains(group)) return Cell();
   const nlohmann::json* object = &json;
   if (!group.empty()) object = json.contains(group) ? &json.at(group) : nullptr;
   const std::string name = (group.empty() ? "" : group + ".") + figure.name;
@@ -46,7 +54,7 @@ Result<double> numberIn(const nlohmann::json& json, const Figure& figure, const 
   }
   const double number = object->at(figure.name).get<double>();
   if (!std::isfinite(number)) return Error{inQuotes(file) + ": " + name + " is not finite"};
-  return number;
+  return Cell(number);
 }
 
 }  // namespace
@@ -63,9 +71,9 @@ Result<Table> readFrames(std::span<const std::string> files) {
     if (!json.is_object()) return Error{inQuotes(file) + " is no JSON object"};
     std::vector<Cell> row{std::filesystem::path(file).filename().string()};
     for (const Figure& figure : figures()) {
-      const Result<double> number = numberIn(json, figure, file);
+      Result<Cell> number = numberIn(json, figure, file);
       if (!number) return number.error();
-      row.emplace_back(*number);
+      row.push_back(*std::move(number));
     }
     table.add(std::move(row));
   }

@@ -83,12 +83,13 @@ void addRow(Table& table, const std::string& id, int level, double finestSlope, 
 
 }  // namespace
 
-LevelResidual residualOf(const Generator& generator, int level, int maps) {
+Result<LevelResidual> residualOf(const Generator& generator, int level, int maps, const GoOn& goOn) {
   LevelResidual residual;
   const double finestSpacing = check::requestOf(0, kSamples).spacing;
   residual.promised = generator.residual(level, kSamples, finestSpacing);
   double slopes = 0.0;
   for (int number = 0; number < maps; ++number) {
+    if (!goOn()) return Error{"interrupted"};
     const HeightMap finest = made(generator, number, 0);
     const HeightMap coarse = made(generator, number, level);
     residual.ofMaps.push_back(std::sqrt(check::squaredError(finest, coarse, level)));
@@ -111,10 +112,11 @@ Result<Table> measureGenerators(const PluginRegistry& registry, const Effort& ef
     if (!generator) return generator.error();
     double finestSlope = 0.0;
     for (int level = 0; level < kResidualLevels; ++level) {
-      if (!goOn()) return Error{"interrupted"};
-      const LevelResidual residual = residualOf(**generator, level, effort.residualMaps);
-      if (level == 0) finestSlope = residual.slope;
-      addRow(table, plugin.id, level, finestSlope, residual, timesOf(**generator, level, effort.repetitions));
+      const Result<LevelResidual> residual = residualOf(**generator, level, effort.residualMaps, goOn);
+      if (!residual) return residual.error();
+      if (level == 0) finestSlope = residual->slope;
+      addRow(table, plugin.id, level, finestSlope, *residual,
+             timesOf(**generator, level, effort.repetitions));
     }
   }
   return table;

@@ -21,8 +21,8 @@ struct LevelResidual {
 };
 
 /// [m] Over `maps` maps with 65 samples a side and a pitch of 64 m at their finest: the finest map minus the
-/// triangles through the level's.
-LevelResidual residualOf(const Generator& generator, int level, int maps);
+/// triangles through the level's. An error: "interrupted", asked for after each map.
+Result<LevelResidual> residualOf(const Generator& generator, int level, int maps, const GoOn& goOn);
 
 /// Levels that have triangles.
 inline constexpr int kResidualLevels = 6;

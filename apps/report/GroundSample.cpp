@@ -54,7 +54,7 @@ Result<GroundSample> sampleGround(const World& world, const Position& centre, do
 SurfaceErrors errorsOf(const SceneQuery& query, const GroundSample& sample, const Eye& eye, double pitch) {
   SurfaceErrors errors;
   std::vector<DrawnPoint> drawn(sample.places.size());
-  query.points(sample.places, drawn);
+  query.seenFrom({eye.position, eye.height}).points(sample.places, drawn);
   for (std::size_t k = 0; k < drawn.size(); ++k) {
     if (!drawn[k].there) continue;
     const double error = std::fabs(drawn[k].height - sample.heights[k]);
@@ -71,7 +71,8 @@ SurfaceErrors errorsOf(const SceneQuery& query, const GroundSample& sample, cons
     }
     ++errors.places;
     if (drawn[k].level == 0) ++errors.finest;
-    if (error > drawn[k].error + kDrawnPointError * std::fabs(sample.heights[k])) ++errors.beyondPromise;
+    const double rounding = (kDrawnPointError + kMorphRounding) * std::fabs(drawn[k].height);
+    if (error > drawn[k].error + rounding) ++errors.beyondPromise;
   }
   return errors;
 }

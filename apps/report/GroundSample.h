@@ -30,15 +30,16 @@ inline constexpr double kNearestPlace = 10.0;  ///< [m]
 Result<GroundSample> sampleGround(const World& world, const Position& centre, double distance,
                                   std::size_t places, std::size_t around, const GoOn& goOn);
 
-/// How far drawn ground is from the sample, at the places where ground is drawn.
+/// How far the ground that is drawn for an eye is from the sample, at the places where ground is drawn.
 struct SurfaceErrors {
   std::vector<double> metres;  ///< [m] at places by area
   std::vector<double> pixels;  ///< [px] at places by distance: |difference| / distance from the eye * lens
   double maxMetres = 0.0, maxPixels = 0.0;  ///< at all places
   std::size_t places = 0;                   ///< with ground
-  std::size_t finest = 0;                   ///< of these, where level 0 is drawn: their error is 0
-  std::size_t beyondPromise = 0;            ///< places whose error is more than DrawnPoint::error says
+  std::size_t finest = 0;         ///< of these, where level 0 is drawn, on its way to level 1 or not
+  std::size_t beyondPromise = 0;  ///< places whose error is more than DrawnPoint::error says
 };
+/// As `eye` sees it: vertices are where the scene's Morph moves them for its distance.
 SurfaceErrors errorsOf(const SceneQuery& query, const GroundSample& sample, const Eye& eye, double pitch);
 
 }  // namespace teren

@@ -29,11 +29,13 @@ std::string htmlOf(const PageSection& section) {
 }
 
 std::string htmlOf(const Justification& choice) {
-  const std::string verdict = choice.holds ? "So the default is what this run justifies."
-                                           : "So the default is not what this run justifies.";
+  const bool isWrong = choice.holds == false;
+  const std::string verdict = !choice.holds ? "This run has not measured it."
+                              : isWrong     ? "So the default is not what this run justifies."
+                                            : "So the default is what this run justifies.";
   return "<li><b>" + escapedForHtml(choice.what) + ": " + escapedForHtml(choice.value) + "</b> (<code>" +
          escapedForHtml(choice.where) + "</code>). " + escapedForHtml(choice.why) + " <span" +
-         (choice.holds ? "" : " class=\"not\"") + ">" + verdict + "</span></li>\n";
+         (isWrong ? " class=\"not\"" : "") + ">" + verdict + "</span></li>\n";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <string_view>
 
 #include "teren/Parameter.h"
 
@@ -83,6 +84,11 @@ Result<std::string> drawn(const Plot& plot) {
     document.append(piece.data(), read);
   }
   if (std::ferror(picture.get()) != 0) return Error{"the temporary file cannot be read"};
+  // gnuplot may end well where a full disk has kept a part
+  const std::size_t last = document.find_last_not_of(" \r\n");
+  if (last == std::string::npos || !std::string_view(document).substr(0, last + 1).ends_with("</svg>")) {
+    return Error{"gnuplot has not drawn all of the plot " + plot.name + ", perhaps for want of room"};
+  }
   return document;
 }
 

@@ -25,7 +25,8 @@ struct Plot {
 /// What gnuplot is asked to draw; curves without a point are left out. Texts may hold anything.
 std::string scriptOf(const Plot& plot);
 
-/// The picture as an SVG document. Errors: gnuplot's, and a plot without a point.
+/// The picture as a whole SVG document. Errors: gnuplot's, a picture that is cut off, and a plot without a
+/// point.
 Result<std::string> drawn(const Plot& plot);
 
 /// A document's <svg> element, to be put into a page: without what stands before it, and with ids that begin

@@ -11,6 +11,7 @@
 #include "apps/report/BlendingTable.h"
 #include "apps/report/DetailTable.h"
 #include "apps/report/GeneratorTable.h"
+#include "apps/report/NodeMeshTable.h"
 #include "apps/report/Page.h"
 #include "apps/report/SchedulingTable.h"
 #include "apps/report/TriangleTable.h"
@@ -24,7 +25,7 @@ constexpr std::array kBudgets{0.25, 0.5, 1.0, 2.0, 4.0, 8.0};                  /
 
 constexpr const char* kFramesHint =
     "Frames are drawn by programs with a window; this report draws none. Have them measured with "
-    "teren-fly --pixel-error PX --view-distance 20000 --seconds 30 --stats FILE.json, and hand the files to "
+    "teren-fly --pixel-error PX --view-distance 20000 --seconds 9 --stats FILE.json, and hand the files to "
     "teren report --frames FILE.json, once for each.";
 
 std::string today() {
@@ -51,7 +52,8 @@ std::vector<std::string> factsOf(const Effort& effort) {
 }  // namespace
 
 Result<MeasuredReport> measureReport(const PluginRegistry& registry, const DefaultsInCode& defaults,
-                                     const Effort& effort, const BeginPart& beginPart, const GoOn& goOn) {
+                                     const Table& frames, const Effort& effort, const BeginPart& beginPart,
+                                     const GoOn& goOn) {
   MeasuredReport report;
   beginPart("blending");
   Result<BlendingFigures> blending = measureBlending(registry, kBlended, effort, goOn);
@@ -64,6 +66,10 @@ Result<MeasuredReport> measureReport(const PluginRegistry& registry, const Defau
   beginPart("triangles");
   Result<Table> triangles = measureTriangles(**world, effort, goOn);
   if (!triangles) return triangles.error();
+  beginPart("node meshes");
+  Result<Table> nodeMeshes = measureNodeMeshes(
+      **world, std::array{defaults.pixelError, defaults.flyingPixelError}, defaults.budget, effort, goOn);
+  if (!nodeMeshes) return nodeMeshes.error();
   beginPart("level of detail");
   if (const Result<void> ready = calibrate(*world, goOn); !ready) return ready.error();
   Result<Table> detail = measureDetail(*world, kPixelErrors, effort, goOn);
@@ -73,14 +79,15 @@ Result<MeasuredReport> measureReport(const PluginRegistry& registry, const Defau
   if (!scheduling) return scheduling.error();
   if (const std::optional<std::string> failure = (*world)->failure()) return Error{*failure};
 
-  report.defaults = justify(defaults, blending->table, *detail, *scheduling);
+  report.defaults = justify(defaults, blending->table, *detail, frames, *scheduling);
   std::vector<Plot> plots = plotsOfBlending(*blending);
   report.parts.push_back({std::move(blending->table), {}});
   report.parts.push_back({std::move(blending->places), std::move(plots)});
   for (auto& [table, plotsOf] : {std::pair{&*generators, &plotsOfGenerators},
                                  {&*detail, &plotsOfDetail},
                                  {&*scheduling, &plotsOfScheduling},
-                                 {&*triangles, &plotsOfTriangles}}) {
+                                 {&*triangles, &plotsOfTriangles},
+                                 {&*nodeMeshes, &plotsOfNodeMeshes}}) {
     plots = plotsOf(*table);
     report.parts.push_back({std::move(*table), std::move(plots)});
   }

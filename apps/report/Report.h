@@ -21,17 +21,19 @@ struct ReportPart {
 };
 
 struct MeasuredReport {
-  std::vector<ReportPart> parts;  ///< blending, its places, generators, detail, scheduling, triangles
+  std::vector<ReportPart>
+      parts;  ///< blending, its places, generators, detail, scheduling, triangles, node meshes
   std::vector<Justification> defaults;
 };
 
 /// Called before each part, with its name.
 using BeginPart = std::function<void(const std::string& name)>;
 
-/// Of all generators of the registry and the world shipped with Teren. Errors: "interrupted", or what cannot
-/// be made.
+/// Of all generators of the registry and the world shipped with Teren; `frames` may be without rows. Errors:
+/// "interrupted", or what cannot be made.
 Result<MeasuredReport> measureReport(const PluginRegistry& registry, const DefaultsInCode& defaults,
-                                     const Effort& effort, const BeginPart& beginPart, const GoOn& goOn);
+                                     const Table& frames, const Effort& effort, const BeginPart& beginPart,
+                                     const GoOn& goOn);
 
 struct ReportFile {
   std::string name, bytes;

@@ -40,13 +40,13 @@ struct Cutting {
 };
 
 /// The ground at every level, and what it cost to make [s].
-struct Ground {
+struct GroundLevels {
   std::vector<HeightMap> maps;
   std::vector<double> seconds;
 };
 
-Result<Ground> groundOf(const World& world, int intervals, int levels, const GoOn& goOn) {
-  Ground ground;
+Result<GroundLevels> groundOf(const World& world, int intervals, int levels, const GoOn& goOn) {
+  GroundLevels ground;
   const std::int64_t patches = intervals / world.intervals();
   for (int level = 0; level < levels; ++level) {
     BakeOptions options;
@@ -81,7 +81,7 @@ std::vector<Column> columns() {
 }
 
 /// [m] Of the uniform grids, by level.
-std::vector<double> uniformErrors(const Ground& ground) {
+std::vector<double> uniformErrors(const GroundLevels& ground) {
   std::vector<double> errors;
   const int side = ground.maps[0].columns() - 1;
   for (std::size_t level = 0; level < ground.maps.size(); ++level) {
@@ -102,7 +102,7 @@ std::vector<double> errorsToKeep(const std::vector<double>& uniform) {
   return errors;
 }
 
-Result<void> addRow(Table& table, const World& world, const Ground& ground,
+Result<void> addRow(Table& table, const World& world, const GroundLevels& ground,
                     const std::vector<double>& uniform, double error) {
   const HeightMap& finest = ground.maps[0];
   const int side = finest.columns() - 1;
@@ -165,7 +165,7 @@ Result<Table> measureTriangles(const World& world, const Effort& effort, const G
          (world.intervals() << levels) <= effort.groundIntervals) {
     ++levels;
   }
-  const Result<Ground> ground = groundOf(world, effort.groundIntervals, levels, goOn);
+  const Result<GroundLevels> ground = groundOf(world, effort.groundIntervals, levels, goOn);
   if (!ground) return ground.error();
   const std::vector<double> uniform = uniformErrors(*ground);
   if (uniform.size() < 2) return Error{"the world has no coarser level to compare with"};

@@ -10,8 +10,10 @@
 #include "teren/Quote.h"
 
 #include "apps/files/OutputFile.h"
+#include "apps/options/EditOptions.h"
 #include "apps/options/WorldOptions.h"
 #include "apps/teren/Command.h"
+#include "apps/teren/EditedWorld.h"
 #include "apps/teren/HeightFile.h"
 #include "apps/teren/Interruption.h"
 #include "apps/teren/JsonOutput.h"
@@ -44,6 +46,7 @@ class BakeCommand final : public Command {
   explicit BakeCommand(CLI::App& parent)
       : Command(parent, "bake", "write a piece of the landscape to a file"),
         world_(application()),
+        edits_(application(), "[none]"),
         patches_(application()
                      .add_option("--patches", "the piece: its south-west patch, and how many east and north")
                      ->type_name("I J COLUMNS ROWS")
@@ -68,9 +71,10 @@ class BakeCommand final : public Command {
   ExitCode run() override {
     const Result<Order> order = readOrder();
     if (!order) return fail(kWrongInput, order.error().message);
-    const Result<std::shared_ptr<const World>> world = world_.create(*PluginRegistry::standard());
+    const std::shared_ptr<const PluginRegistry> registry = PluginRegistry::standard();
+    const Result<std::shared_ptr<const World>> world = world_.create(*registry);
     if (!world) return fail(kWrongInput, world.error().message);
-    return carryOut(*order, **world);
+    return carryOut(*order, *world, registry);
   }
 
  private:
@@ -102,17 +106,24 @@ class BakeCommand final : public Command {
     return order;
   }
 
-  ExitCode carryOut(const Order& order, const World& world) {
+  ExitCode carryOut(const Order& order, const std::shared_ptr<const World>& shared,
+                    const std::shared_ptr<const PluginRegistry>& registry) {
+    const World& world = *shared;
     const Interruption interruption;
     Result<OutputFile> file = OutputFile::create(order.file);
     if (!file) return fail(kWorkFailed, file.error().message);
+    const std::string consequence = inQuotes(order.file.string()) + " was not written";
+    const std::string unfinished = "interrupted, " + consequence;
+    const auto edited = groundOfOptions(edits_, shared, registry, interruption);
+    if (interruption.came()) return fail(kWorkFailed, unfinished);
+    if (const auto code = failWith(world, consequence)) return *code;
+    if (!edited) return fail(kWrongInput, edited.error().message);
 
     const auto start = std::chrono::steady_clock::now();
-    Result<HeightMap> heights = bakeShowingProgress(order, world, interruption);
+    Result<HeightMap> heights = bakeShowingProgress(order, world, edited->get(), interruption);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    const std::string unfinished = "interrupted, " + inQuotes(order.file.string()) + " was not written";
     if (interruption.came()) return fail(kWorkFailed, unfinished);
-    if (const auto code = failWith(world, inQuotes(order.file.string()) + " was not written")) return *code;
+    if (const auto code = failWith(world, consequence)) return *code;
     if (!heights) return fail(kWrongInput, heights.error().message);
 
     Result<void> written = writeShowingProgress(order, world, heights->view(), file->stream(), interruption);
@@ -129,11 +140,12 @@ class BakeCommand final : public Command {
   }
 
   static Result<HeightMap> bakeShowingProgress(const Order& order, const World& world,
-                                               const Interruption& interruption) {
+                                               const EditedGround* edits, const Interruption& interruption) {
     ProgressLine line("nodes");
     BakeOptions options;
     options.slice = order.slice;
     options.workers = order.workers;
+    options.edits = edits;
     options.progress = [&](std::size_t done, std::size_t wanted) {
       line.show(done, wanted);
       return !interruption.came() && !world.failure();
@@ -172,6 +184,7 @@ class BakeCommand final : public Command {
   }
 
   WorldOptions world_;
+  EditOptions edits_;
   const CLI::Option* patches_;
   const CLI::Option* level_;
   const CLI::Option* workers_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -55,16 +56,20 @@ class CheckCommand final : public Command {
     if (answer_->count() > 0) return answerAlone();
     const Interruption interruption;
     interruption_ = &interruption;
-    const std::vector<std::string> names = wantedNames();
+    std::vector<std::string> names = {kLoading};
     bool all = true;
-    wanted_ = names.size();
-    for (done_ = 0; done_ < wanted_; ++done_) {
+    for (done_ = 0; done_ < names.size(); ++done_) {
+      wanted_ = names.size();
       const OrderedJson answer = ask(names[done_]);
       if (interruption.came()) return fail(kWorkFailed, "interrupted, the check was not completed");
       const bool holds = answer["holds"];
-      tell(answer);
       all = all && holds;
-      if (!holds && names[done_] == kLoading) break;
+      const bool isLoaded = names[done_] == kLoading && holds;
+      // What is demanded depends on what the module is, so it is known only now.
+      if (isLoaded) kind_ = kindOf(answer.value("kind", ""));
+      if (isLoaded && !isKnown(kind_)) return fail(kWrongInput, unknownProperty({kind_}));
+      tell(answer);
+      if (isLoaded) appendWanted(names);
     }
     tellEnd(all);
     return all ? kSuccess : kWorkFailed;
@@ -81,22 +86,41 @@ class CheckCommand final : public Command {
       seconds_ = *seconds;
     }
     if (answer_->count() > 0 && property_->count() == 0) return "--answer needs --property";
+    if (isKnown(PluginKind::generator) || isKnown(PluginKind::deformer)) return std::nullopt;
+    return unknownProperty({PluginKind::generator, PluginKind::deformer});
+  }
+
+  static PluginKind kindOf(const std::string& name) {
+    for (const PluginKind kind : {PluginKind::filter, PluginKind::deformer}) {
+      if (name == kindName(kind)) return kind;
+    }
+    return PluginKind::generator;
+  }
+
+  /// Whether plugins of this kind have the property that is asked for, if one is.
+  bool isKnown(PluginKind kind) const {
     const std::string name = argument(*property_);
-    if (property_->count() == 0 || name == kLoading || check::findProperty(name) != nullptr)
-      return std::nullopt;
-    std::string sentence = "--property is " + inQuotes(name) + " but must be " + kLoading;
-    for (const Property* property : check::contract()) sentence += ", " + std::string(property->name());
+    return property_->count() == 0 || name == kLoading || check::findProperty(kind, name) != nullptr;
+  }
+
+  std::string unknownProperty(std::initializer_list<PluginKind> kinds) const {
+    std::string sentence = "--property is " + inQuotes(argument(*property_)) + " but must be " + kLoading;
+    for (const PluginKind kind : kinds) {
+      if (kind == PluginKind::deformer) sentence += ", or of a deformer";
+      const char* between = kind == PluginKind::deformer ? " " : ", ";
+      for (const Property* property : check::contract(kind)) {
+        sentence += between + std::string(property->name());
+        between = ", ";
+      }
+    }
     return sentence;
   }
 
-  /// Loading first: without it there is nothing to look at.
-  std::vector<std::string> wantedNames() const {
-    std::vector<std::string> names = {kLoading};
-    for (const Property* property : check::contract()) {
+  void appendWanted(std::vector<std::string>& names) const {
+    for (const Property* property : check::contract(kind_)) {
       if (property_->count() == 0 || argument(*property_) == property->name())
         names.emplace_back(property->name());
     }
-    return names;
   }
 
   const CLI::Option* addFlag(const std::string& name, const std::string& doc) {
@@ -122,13 +146,14 @@ class CheckCommand final : public Command {
       return {{"holds", true},
               {"text", info.doc},
               {"id", info.id},
-              {"kind", kindText(info.kind)},
+              {"kind", kindName(info.kind)},
               {"version", info.version}};
     }
     const check::Subject subject(registry, info.id);
+    const Property* const property = check::findProperty(info.kind, argument(*property_));
+    if (property == nullptr) return {{"holds", false}, {"text", "it is of a kind without this property"}};
     const check::Finding finding =
-        check::findProperty(argument(*property_))
-            ->check(subject, quick_->count() > 0 ? Effort::quick() : Effort::full());
+        property->check(subject, quick_->count() > 0 ? Effort::quick() : Effort::full());
     return {{"holds", finding.holds}, {"text", finding.text}};
   }
 
@@ -159,8 +184,8 @@ class CheckCommand final : public Command {
     return answer;
   }
 
-  static std::string demandOf(const std::string& name) {
-    const Property* const property = check::findProperty(name);
+  std::string demandOf(const std::string& name) const {
+    const Property* const property = check::findProperty(kind_, name);
     return property == nullptr ? kLoadingDemand : std::string(property->demand());
   }
 
@@ -205,6 +230,7 @@ class CheckCommand final : public Command {
   double seconds_ = kUsualLimit;
   const Interruption* interruption_ = nullptr;
   OrderedJson report_ = OrderedJson::object();
+  PluginKind kind_ = PluginKind::generator;  // of the module, once it is loaded
   std::size_t wanted_ = 0, done_ = 0, failures_ = 0;
 };
 

@@ -59,6 +59,7 @@ std::unique_ptr<Command> makePluginsCommand(CLI::App& parent);
 std::unique_ptr<Command> makeDescribeCommand(CLI::App& parent);
 std::unique_ptr<Command> makeBakeCommand(CLI::App& parent);
 std::unique_ptr<Command> makeQueryCommand(CLI::App& parent);
+std::unique_ptr<Command> makeEditsCommand(CLI::App& parent);
 std::unique_ptr<Command> makeFlightCommand(CLI::App& parent);
 std::unique_ptr<Command> makeNewPluginCommand(CLI::App& parent);
 std::unique_ptr<Command> makeCheckCommand(CLI::App& parent);

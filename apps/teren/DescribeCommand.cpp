@@ -86,7 +86,7 @@ class DescribeCommand final : public Command {
     if (plugin == nullptr) return fail(kWrongInput, unknownId(*registry, id));
     if (json_->count() > 0) {
       OrderedJson answer = {{"id", plugin->id},
-                            {"kind", kindText(plugin->kind)},
+                            {"kind", kindName(plugin->kind)},
                             {"version", plugin->version},
                             {"doc", plugin->doc},
                             {"parameters", OrderedJson::array()}};
@@ -94,7 +94,7 @@ class DescribeCommand final : public Command {
       printJson(answer);
       return kSuccess;
     }
-    std::cout << plugin->id << " (" << kindText(plugin->kind) << ", version " << plugin->version
+    std::cout << plugin->id << " (" << kindName(plugin->kind) << ", version " << plugin->version
               << "): " << plugin->doc << '\n';
     for (const Parameter& parameter : plugin->parameters) std::cout << "  " << asText(parameter) << '\n';
     return kSuccess;

@@ -7,10 +7,12 @@
 #include "teren/Parameter.h"
 #include "teren/Quote.h"
 
+#include "apps/options/EditOptions.h"
 #include "apps/options/LargeBlocks.h"
 #include "apps/options/ViewOptions.h"
 #include "apps/options/WorldOptions.h"
 #include "apps/teren/Command.h"
+#include "apps/teren/EditedWorld.h"
 #include "apps/teren/Interruption.h"
 #include "apps/teren/JsonOutput.h"
 #include "apps/teren/MeasuredFlight.h"
@@ -128,7 +130,7 @@ class FlightCommand final : public Command {
         workers_(add("--workers", "N", "threads that make the landscape; 0: the update itself does [0]")),
         budget_(add("--budget-us", "N", "microseconds an update may take [2000]")),
         cap_(add("--cap-mib", "N", "most MiB the engine may hold [512]")),
-        edits_(add("--edits", "FILE", "not yet: the land cannot be edited")),
+        edits_(application(), "that the land is flown with [none]"),
         fast_(addFlag("--fast", "one update after the other instead of 60 a second")),
         json_(addJson()) {}
 
@@ -141,9 +143,15 @@ class FlightCommand final : public Command {
     if (const Result<void> placed = placeIn(**world, *plan); !placed) {
       return fail(kWrongInput, placed.error().message);
     }
-    const Result<std::unique_ptr<MeasuredFlight>> flight = MeasuredFlight::create(*world, *plan);
+    const Interruption interruption;
+    Result<std::unique_ptr<EditedGround>> edits =
+        groundOfOptions(edits_, *world, PluginRegistry::standard(), interruption);
+    if (interruption.came()) return fail(kWorkFailed, "interrupted before the first update");
+    if (!edits) return fail(kWrongInput, edits.error().message);
+    const Result<std::unique_ptr<MeasuredFlight>> flight =
+        MeasuredFlight::create(*world, *plan, std::move(*edits));
     if (!flight) return fail(kWrongInput, flight.error().message);
-    return carryOut(**flight, *plan, **world);
+    return carryOut(**flight, *plan, **world, interruption);
   }
 
  private:
@@ -157,7 +165,6 @@ class FlightCommand final : public Command {
 
   /// What can be checked without the world.
   Result<FlightPlan> readPlan() const {
-    if (edits_->count() > 0) return Error{"--edits cannot be heeded yet, because the landscape has no edits"};
     FlightPlan plan;
     const Result<double> speed = number(*speed_, plan.speed, 0.0, kFastest);
     if (!speed) return speed.error();
@@ -210,8 +217,8 @@ class FlightCommand final : public Command {
     return {};
   }
 
-  ExitCode carryOut(MeasuredFlight& flight, const FlightPlan& plan, const World& world) {
-    const Interruption interruption;
+  ExitCode carryOut(MeasuredFlight& flight, const FlightPlan& plan, const World& world,
+                    const Interruption& interruption) {
     const FlightResult result = flyShowingProgress(flight, interruption);
     if (json_->count() > 0) {
       printJson(asJson(result));
@@ -244,7 +251,7 @@ class FlightCommand final : public Command {
   const CLI::Option* workers_;
   const CLI::Option* budget_;
   const CLI::Option* cap_;
-  const CLI::Option* edits_;
+  EditOptions edits_;
   const CLI::Option* fast_;
   const CLI::Option* json_;
 };

@@ -16,8 +16,4 @@ std::string hashDigits(std::uint64_t hash) {
   return digits.data();
 }
 
-const char* kindText(PluginKind kind) {
-  return kind == PluginKind::generator ? "generator" : "filter";
-}
-
 }  // namespace teren

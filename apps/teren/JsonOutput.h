@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "teren/Plugin.h"
-
 namespace teren {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -18,8 +16,5 @@ void printJson(const OrderedJson& value);
 
 /// 16 lower-case hexadecimal digits.
 std::string hashDigits(std::uint64_t hash);
-
-/// "generator" or "filter".
-const char* kindText(PluginKind kind);
 
 }  // namespace teren

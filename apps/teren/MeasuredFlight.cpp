@@ -48,28 +48,13 @@ std::pair<int, int> spiral(int index) {
   return {x, y};
 }
 
-Result<std::unique_ptr<Object>> makeObject(const FlightPlan& plan, int index, const World& world) {
-  const auto [east, north] = spiral(index);
-  const Result<Position> start =
-      plan.start.movedBy(east * kObjectDistance, north * kObjectDistance, world.pitch());
-  if (!start) return start.error();
-  Course course;
-  course.start = *start;
-  course.height = world.query(*start).drawn + kFlightClearance;
-  course.speed = plan.speed;
-  course.pitch = world.pitch();
-  const Result<std::shared_ptr<const Script>> script =
-      plan.path == FlightPath::straight ? straightScript(course) : turnsScript(course);
-  if (!script) return script.error();
-  return std::unique_ptr<Object>(
-      std::make_unique<ScriptedObject>(*script, ScriptedObjectOptions{.clearance = kFlightClearance}));
-}
-
 }  // namespace
 
-MeasuredFlight::MeasuredFlight(std::shared_ptr<const World> world, const FlightPlan& plan)
+MeasuredFlight::MeasuredFlight(std::shared_ptr<const World> world, const FlightPlan& plan,
+                               std::unique_ptr<EditedGround> edits)
     : world_(std::move(world)),
       plan_(plan),
+      edits_(std::move(edits)),
       cpu_(static_cast<std::size_t>(plan.updates)),
       wall_(static_cast<std::size_t>(plan.updates)),
       spinner_(static_cast<std::size_t>(plan.updates)),
@@ -80,14 +65,43 @@ MeasuredFlight::MeasuredFlight(std::shared_ptr<const World> world, const FlightP
   pixelErrors_.clear();  // touched, so that the program does not grow by it
 }
 
+double MeasuredFlight::drawnHeight(const Position& position) const {
+  if (!edits_) return world_->query(position).drawn;
+  SurfacePoint point;
+  edits_->query({&position, 1}, {&point, 1});
+  return point.drawn;
+}
+
+Result<std::unique_ptr<Object>> MeasuredFlight::makeObject(int index) const {
+  const auto [east, north] = spiral(index);
+  const Result<Position> start =
+      plan_.start.movedBy(east * kObjectDistance, north * kObjectDistance, world_->pitch());
+  if (!start) return start.error();
+  Course course;
+  course.start = *start;
+  course.height = drawnHeight(*start) + kFlightClearance;
+  course.speed = plan_.speed;
+  course.pitch = world_->pitch();
+  const Result<std::shared_ptr<const Script>> script =
+      plan_.path == FlightPath::straight ? straightScript(course) : turnsScript(course);
+  if (!script) return script.error();
+  return std::unique_ptr<Object>(
+      std::make_unique<ScriptedObject>(*script, ScriptedObjectOptions{.clearance = kFlightClearance}));
+}
+
 Result<std::unique_ptr<MeasuredFlight>> MeasuredFlight::create(std::shared_ptr<const World> world,
-                                                               const FlightPlan& plan) {
-  std::unique_ptr<MeasuredFlight> flight(new MeasuredFlight(world, plan));
+                                                               const FlightPlan& plan,
+                                                               std::unique_ptr<EditedGround> edits) {
+  std::unique_ptr<MeasuredFlight> flight(new MeasuredFlight(world, plan, std::move(edits)));
   Result<std::unique_ptr<Engine>> engine = Engine::create(world, plan.engine);
   if (!engine) return engine.error();
   flight->engine_ = std::move(*engine);
+  if (flight->edits_) {
+    const EditedGround::Snapshot ground = flight->edits_->snapshot();
+    flight->engine_->setEdits(ground.edits, ground.changed);
+  }
   for (int index = 0; index < plan.objects; ++index) {
-    Result<std::unique_ptr<Object>> object = makeObject(plan, index, *world);
+    Result<std::unique_ptr<Object>> object = flight->makeObject(index);
     if (!object) return object.error();
     flight->engine_->add(std::move(*object));
   }
@@ -138,7 +152,7 @@ void MeasuredFlight::lookAtGround(std::int64_t update) {
     const Position position = engine_->object(index).motion().position;
     const std::optional<double> ground = engine_->finestHeight(position);
     missing = missing || !ground;
-    addHeight(hash_, ground ? *ground : world_->query(position).drawn);
+    addHeight(hash_, ground ? *ground : drawnHeight(position));
   }
   if (missing && update >= kUpdatesPerSecond) ++result_.missing;
   result_.updates = update + 1;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "teren/EditedGround.h"
 #include "teren/Engine.h"
 #include "teren/Hash.h"
 #include "teren/Result.h"
@@ -58,8 +59,9 @@ struct FlownPixelError {
 
 /// What came of a flight. The hash is of the ground's height (level-0 triangles; 8 bytes a height, little-
 /// endian, -0 as 0) under each object after each update; where the engine had none there, of the height that
-/// World::query gives for the place. So it depends on the world, the start, path, speed, objects and number
-/// of updates alone; what the engine failed to have in time is counted by `missing`.
+/// World::query, or EditedGround::query, gives for the place. So it depends on the world, its edits, the
+/// start, path, speed, objects and number of updates alone; what the engine failed to have in time is counted
+/// by `missing`.
 struct FlightResult {
   std::int64_t updates = 0;
   Percentiles cpu;         ///< CPU time of the updating thread
@@ -79,9 +81,11 @@ struct FlightResult {
 /// Flies once.
 class MeasuredFlight {
  public:
-  /// Refuses what Engine::create refuses, and objects that would begin beyond the world.
+  /// Refuses what Engine::create refuses, and objects that would begin beyond the world. With `edits`, which
+  /// are of this world and at rest, all of them are there before the first update.
   static Result<std::unique_ptr<MeasuredFlight>> create(std::shared_ptr<const World> world,
-                                                        const FlightPlan& plan);
+                                                        const FlightPlan& plan,
+                                                        std::unique_ptr<EditedGround> edits = nullptr);
 
   /// Flies to the end, or until `progress(done, updates)`, asked before each update, returns false.
   ///
@@ -92,7 +96,11 @@ class MeasuredFlight {
   FlightResult fly(const std::function<bool(std::int64_t done, std::int64_t updates)>& progress);
 
  private:
-  MeasuredFlight(std::shared_ptr<const World> world, const FlightPlan& plan);
+  MeasuredFlight(std::shared_ptr<const World> world, const FlightPlan& plan,
+                 std::unique_ptr<EditedGround> edits);
+  /// [m] The level-0 triangles there, whatever the engine has.
+  double drawnHeight(const Position& position) const;
+  Result<std::unique_ptr<Object>> makeObject(int index) const;
   void update();
   void lookAtGround(std::int64_t update);
   void lookAtPicture(std::int64_t update);
@@ -102,6 +110,7 @@ class MeasuredFlight {
 
   std::shared_ptr<const World> world_;
   FlightPlan plan_;
+  std::unique_ptr<EditedGround> edits_;  // may be nullptr
   std::unique_ptr<Engine> engine_;
   DurationLog cpu_, wall_, spinner_, spinnerCpu_;
   std::vector<float> pixelErrors_;  // of frames; room for all is reserved and touched

@@ -1,8 +1,9 @@
-// teren new-plugin ID [--kind generator|filter]: writes a small project for a plugin of one's own.
+// teren new-plugin ID [--kind generator|filter|deformer]: writes a small project for a plugin of one's own.
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "teren/PluginRegistry.h"
@@ -27,13 +28,20 @@ Result<void> write(const fs::path& path, const std::string& text) {
   return file->commit();
 }
 
+std::optional<PluginKind> kindOf(const std::string& name) {
+  for (const PluginKind kind : {PluginKind::generator, PluginKind::filter, PluginKind::deformer}) {
+    if (name == kindName(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
 class NewPluginCommand final : public Command {
  public:
   explicit NewPluginCommand(CLI::App& parent)
       : Command(parent, "new-plugin",
                 "write a small project for a plugin of your own, in the folder teren-ID") {
     id_ = application().add_option("ID", "lower-case letters, digits and '-'");
-    kind_ = application().add_option("--kind", "generator or filter [generator]");
+    kind_ = application().add_option("--kind", "generator, filter or deformer [generator]");
   }
 
   ExitCode run() override {
@@ -43,8 +51,9 @@ class NewPluginCommand final : public Command {
       return fail(kWrongInput, "new-plugin: the ID is " + inQuotes(id) +
                                    ", expected lower-case letters, digits and '-', 1 to 64 of them");
     }
-    if (kind != "generator" && kind != "filter") {
-      return fail(kWrongInput, "--kind is " + inQuotes(kind) + ", expected generator or filter");
+    const std::optional<PluginKind> wanted = kindOf(kind);
+    if (!wanted) {
+      return fail(kWrongInput, "--kind is " + inQuotes(kind) + ", expected generator, filter or deformer");
     }
     const std::shared_ptr<const PluginRegistry> registry = PluginRegistry::standard();
     if (const PluginInfo* other = registry->find(id); other != nullptr) {
@@ -60,7 +69,7 @@ class NewPluginCommand final : public Command {
                      : fail(kWrongInput,
                             "there is a " + inQuotes(folder.string()) + " already, and it is left alone");
     }
-    return writeInto(folder, kind == "filter" ? PluginKind::filter : PluginKind::generator, id);
+    return writeInto(folder, *wanted, id);
   }
 
  private:

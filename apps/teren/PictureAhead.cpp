@@ -37,7 +37,7 @@ Vector leaning(const Vector& along, double share, const Vector& across) {
 }  // namespace
 
 PictureAhead::PictureAhead(const World& world, const Motion& eye, const DetailSettings& detail)
-    : world_(world), eye_(eye) {
+    : world_(world), eye_(eye), distance_(detail.distance) {
   const Vector forwards = unitOr({eye.east, eye.north, eye.up}, {0.0, 1.0, 0.0});
   const Vector right = unitOr(cross(forwards, {0.0, 0.0, 1.0}), {1.0, 0.0, 0.0});
   const Vector up = cross(right, forwards);
@@ -58,6 +58,8 @@ bool PictureAhead::mayShow(const Mesh& mesh) const noexcept {
                    static_cast<double>(mesh.minHeight) - eye_.height};
   const Vector high{low[0] + mesh.columns * spacing, low[1] + mesh.rows * spacing,
                     static_cast<double>(mesh.maxHeight) - eye_.height};
+  const auto away = [&](std::size_t axis) { return std::max({low[axis], -high[axis], 0.0}); };
+  if (away(0) * away(0) + away(1) * away(1) > distance_ * distance_) return false;
   return std::all_of(inwards_.begin(), inwards_.end(), [&](const Vector& inwards) {
     double farthest = 0.0;  // of the box's corners, to the inside
     for (std::size_t k = 0; k < 3; ++k) farthest += std::max(inwards[k] * low[k], inwards[k] * high[k]);

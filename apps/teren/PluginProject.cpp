@@ -97,6 +97,74 @@ class @CLASS@ final : public teren::Filter {
 TEREN_FILTER_PLUGIN(@CLASS@, "@ID@", "0.1", "Multiplies every height")
 )";
 
+constexpr std::string_view kDeformer =
+    R"(// The deformer "@ID@": presses round dents into the ground. Put your own tool into `apply`.
+#include <teren/DeformGrid.h>
+#include <teren/Plugin.h>
+
+namespace {
+
+class @CLASS@Surface final : public teren::LiveSurface {
+ public:
+  @CLASS@Surface(const teren::DeformRegion& region, teren::ConstHeightView ground) : grid_(region, ground) {}
+
+  // [m] What a stamp changes, or why it cannot be: whatever a number may be, it ends here.
+  static teren::Result<double> reach(const teren::Stamp& stamp) {
+    if (!(stamp.size > 0.0 && stamp.size <= 1000.0)) return teren::Error{"size must be above 0 and up to 1000 m"};
+    if (!(stamp.depth >= -1000.0 && stamp.depth <= 1000.0)) return teren::Error{"depth must be within 1000 m"};
+    return stamp.size;
+  }
+
+  teren::Result<void> apply(const teren::Stamp& stamp) override {
+    const teren::Result<double> reach = @CLASS@Surface::reach(stamp);
+    if (!reach) return reach.error();
+    if (auto place = teren::checkPlace(grid_.region(), stamp, *reach); !place) return place;
+    const double spacing = grid_.region().spacing, deepest = stamp.values.real("strength") * stamp.depth;
+    const teren::SampleRectangle near = grid_.region().within(stamp.east, stamp.north, *reach);
+    for (int y = near.row; y < near.row + near.rows; ++y) {
+      for (int x = near.column; x < near.column + near.columns; ++x) {
+        const double east = (x * spacing - stamp.east) / stamp.size, north = (y * spacing - stamp.north) / stamp.size;
+        const double inside = 1.0 - (east * east + north * north);
+        if (inside > 0.0) grid_.set(x, y, grid_(x, y) - deepest * (inside * inside));
+      }
+    }
+    return {};
+  }
+
+  // All is done at once here. What settles after a stamp does so in these, in numbered steps.
+  bool step(const teren::Slice&, std::uint64_t) override { return true; }
+  std::uint64_t steps() const noexcept override { return 0; }
+  bool atRest() const noexcept override { return true; }
+
+  std::shared_ptr<const teren::DeformedGround> snapshot() override { return grid_.snapshot(); }
+  std::size_t bytes() const noexcept override { return grid_.bytes(); }
+
+ private:
+  teren::DeformGrid grid_;
+};
+
+class @CLASS@ final : public teren::Deformer {
+ public:
+  static std::span<const teren::Parameter> parameters() noexcept {
+    static constexpr teren::Parameter table[] = {
+        teren::Parameter::real("strength", 1.0, 0.0, 1.0, "", "What the depth is multiplied with"),
+    };
+    return table;
+  }
+  teren::Result<double> reach(const teren::Stamp& stamp, double) const override {
+    return @CLASS@Surface::reach(stamp);
+  }
+  teren::Result<std::unique_ptr<teren::LiveSurface>> begin(const teren::DeformRegion& region,
+                                                           teren::ConstHeightView ground) const override {
+    return std::unique_ptr<teren::LiveSurface>(std::make_unique<@CLASS@Surface>(region, ground));
+  }
+};
+
+}  // namespace
+
+TEREN_DEFORMER_PLUGIN(@CLASS@, "@ID@", "0.1", "Presses round dents into the ground")
+)";
+
 constexpr std::string_view kLists = R"(cmake_minimum_required(VERSION 3.25)
 project(teren-@ID@ CXX)
 if(NOT CMAKE_BUILD_TYPE)
@@ -129,6 +197,19 @@ A @KIND@ plugin for Teren, made by `teren new-plugin`.
 the test, property by property.
 )";
 
+constexpr std::string_view kDeformerReadme = R"(# teren-@ID@
+
+A deformer plugin for Teren, made by `teren new-plugin`.
+
+    cmake -B build -D CMAKE_PREFIX_PATH=...      # where Teren is installed
+    cmake --build build && ctest --test-dir build
+    export TEREN_PLUGIN_PATH=$PWD/build/plugins
+    teren describe @ID@
+
+@ID@.cpp is all of it. What it promises is in teren/Deformer.h; `teren check build/plugins/teren-@ID@.so` puts it to
+the test, property by property.
+)";
+
 std::string className(const std::string& id) {
   std::string name;
   bool upper = true;
@@ -149,21 +230,33 @@ void replaceAll(std::string& text, std::string_view what, std::string_view with)
   }
 }
 
+std::string_view sourceOf(PluginKind kind) {
+  switch (kind) {
+    case PluginKind::generator:
+      return kGenerator;
+    case PluginKind::filter:
+      return kFilter;
+    case PluginKind::deformer:
+      break;
+  }
+  return kDeformer;
+}
+
 }  // namespace
 
 std::vector<ProjectFile> pluginProject(PluginKind kind, const std::string& id) {
-  const bool generator = kind == PluginKind::generator;
+  const bool generator = kind == PluginKind::generator, deforms = kind == PluginKind::deformer;
   const std::string layer = generator
                                 ? R"({ "generator": "@ID@", "pitch": 512 })"
                                 : R"({ "generator": "fault", "pitch": 512, "parameters": { "deviation": 40 },
                 "filters": [ { "filter": "@ID@" } ] })";
-  std::vector<ProjectFile> files = {{id + ".cpp", std::string(generator ? kGenerator : kFilter)},
+  std::vector<ProjectFile> files = {{id + ".cpp", std::string(sourceOf(kind))},
                                     {"CMakeLists.txt", std::string(kLists)},
-                                    {"world.json", std::string(kWorld)},
-                                    {"README.md", std::string(kReadme)}};
+                                    {"README.md", std::string(deforms ? kDeformerReadme : kReadme)}};
+  if (!deforms) files.push_back({"world.json", std::string(kWorld)});
   for (ProjectFile& file : files) {
     replaceAll(file.text, "@LAYER@", layer);
-    replaceAll(file.text, "@KIND@", generator ? "generator" : "filter");
+    replaceAll(file.text, "@KIND@", kindName(kind));
     replaceAll(file.text, "@HEADER@", generator ? "Generator" : "Filter");
     replaceAll(file.text, "@CLASS@", className(id));
     replaceAll(file.text, "@ID@", id);

@@ -13,8 +13,8 @@ struct ProjectFile {
   std::string text;
 };
 
-/// Source, CMakeLists.txt with a test, README.md and a world to fly over. `id` is a plugin's: lower-case
-/// letters, digits and '-'.
+/// Source, CMakeLists.txt with a test, README.md and, but for a deformer, a world to fly over. `id` is a
+/// plugin's: lower-case letters, digits and '-'.
 std::vector<ProjectFile> pluginProject(PluginKind kind, const std::string& id);
 
 }  // namespace teren

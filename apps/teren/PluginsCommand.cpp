@@ -30,7 +30,7 @@ class PluginsCommand final : public Command {
     OrderedJson answer = {{"plugins", OrderedJson::array()}, {"refused", OrderedJson::array()}};
     for (const PluginInfo& plugin : registry.plugins()) {
       answer["plugins"].push_back({{"id", plugin.id},
-                                   {"kind", kindText(plugin.kind)},
+                                   {"kind", kindName(plugin.kind)},
                                    {"version", plugin.version},
                                    {"file", plugin.file.string()},
                                    {"doc", plugin.doc}});
@@ -44,7 +44,7 @@ class PluginsCommand final : public Command {
   static void printText(const PluginRegistry& registry) {
     if (registry.plugins().empty()) std::cout << "no plugins were found\n";
     for (const PluginInfo& plugin : registry.plugins()) {
-      std::cout << plugin.id << " (" << kindText(plugin.kind) << ", version " << plugin.version
+      std::cout << plugin.id << " (" << kindName(plugin.kind) << ", version " << plugin.version
                 << "): " << plugin.doc << "\n  " << plugin.file.string() << "\n";
     }
     for (const RefusedModule& module : registry.refused()) {

@@ -9,8 +9,11 @@
 #include "teren/Parameter.h"
 #include "teren/Quote.h"
 
+#include "apps/options/EditOptions.h"
 #include "apps/options/WorldOptions.h"
 #include "apps/teren/Command.h"
+#include "apps/teren/EditedWorld.h"
+#include "apps/teren/Interruption.h"
 #include "apps/teren/JsonOutput.h"
 
 namespace teren {
@@ -63,6 +66,7 @@ class QueryCommand final : public Command {
   explicit QueryCommand(CLI::App& parent)
       : Command(parent, "query", "tell height, normal and error bound at points of the landscape"),
         world_(application()),
+        edits_(application(), "[none]"),
         points_(application()
                     .add_option("POINTS", "X Y [X Y]...: metres east and north of the world's zero")
                     ->expected(2, kMostArguments)
@@ -71,16 +75,29 @@ class QueryCommand final : public Command {
         json_(addJson()) {}
 
   ExitCode run() override {
-    const Result<std::shared_ptr<const World>> world = world_.create(*PluginRegistry::standard());
+    const std::shared_ptr<const PluginRegistry> registry = PluginRegistry::standard();
+    const Result<std::shared_ptr<const World>> world = world_.create(*registry);
     if (!world) return fail(kWrongInput, world.error().message);
     const Result<std::vector<TypedPoint>> points = readPoints(points_->results(), (*world)->pitch());
     if (!points) return fail(kWrongInput, points.error().message);
+    const Interruption interruption;
+    const auto edited = groundOfOptions(edits_, *world, registry, interruption);
+    if (interruption.came()) return fail(kWorkFailed, "interrupted, there is no answer");
+    if (const auto code = failWith(**world, "there is no answer")) return *code;
+    if (!edited) return fail(kWrongInput, edited.error().message);
     std::vector<Position> positions;
     for (const TypedPoint& point : points.value()) positions.push_back(point.position);
     std::vector<SurfacePoint> surfaces(positions.size());
     for (std::size_t first = 0; first < positions.size(); first += kAtOnce) {
       const std::size_t count = std::min(kAtOnce, positions.size() - first);
-      (*world)->query(std::span(positions).subspan(first, count), std::span(surfaces).subspan(first, count));
+      const auto places = std::span(positions).subspan(first, count);
+      const auto answers = std::span(surfaces).subspan(first, count);
+      if (*edited != nullptr) {
+        (*edited)->query(places, answers);
+      } else {
+        (*world)->query(places, answers);
+      }
+      if (interruption.came()) return fail(kWorkFailed, "interrupted, there is no answer");
       if (const auto code = failWith(**world, "there is no answer")) return *code;
     }
     answer(points.value(), surfaces);
@@ -102,6 +119,7 @@ class QueryCommand final : public Command {
   }
 
   WorldOptions world_;
+  EditOptions edits_;
   const CLI::Option* points_;
   const CLI::Option* json_;
 };

@@ -10,6 +10,7 @@
 #include "teren/Quote.h"
 
 #include "apps/files/OutputFile.h"
+#include "apps/options/ViewOptions.h"
 #include "apps/report/FrameTable.h"
 #include "apps/report/Report.h"
 #include "apps/teren/Command.h"
@@ -21,11 +22,16 @@ namespace teren {
 namespace {
 
 DefaultsInCode defaultsInCode() {
-  return {LayerDescription{}.blend, LayerDescription{}.preserveVariance, DetailSettings{}.pixelError,
-          1e-3 * static_cast<double>(FlightPlan{}.budget.count())};
+  return {.kernel = LayerDescription{}.blend,
+          .preserveVariance = LayerDescription{}.preserveVariance,
+          .pixelError = DetailSettings{}.pixelError,
+          .distance = DetailSettings{}.distance,
+          .flyingPixelError = kFlyingDetail.pixelError,
+          .flyingDistance = kFlyingDetail.distance,
+          .budget = 1e-3 * static_cast<double>(FlightPlan{}.budget.count())};
 }
 
-/// A folder for the report. One that was made for it goes again unless it is kept.
+/// A folder for the report. What was made for it goes again unless it is kept, the folders above included.
 class ReportFolder {
  public:
   explicit ReportFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -33,7 +39,9 @@ class ReportFolder {
   ReportFolder& operator=(const ReportFolder&) = delete;
   ~ReportFolder() {
     std::error_code problem;
-    if (made_ && !kept_) std::filesystem::remove(folder_, problem);  // only where it is empty
+    for (std::size_t k = kept_ ? 0 : made_.size(); k > 0; --k) {
+      std::filesystem::remove(made_[k - 1], problem);  // only where it is empty
+    }
   }
 
   Result<void> make() {
@@ -41,7 +49,12 @@ class ReportFolder {
       return Error{"no folder " + inQuotes(folder_.string()) + " can be made"};
     }
     std::error_code problem;
-    made_ = std::filesystem::create_directories(folder_, problem);
+    std::filesystem::path part;
+    for (const std::filesystem::path& name : folder_) {
+      part /= name;
+      if (!std::filesystem::exists(part, problem) && !problem) made_.push_back(part);
+    }
+    std::filesystem::create_directories(folder_, problem);
     if (problem) {
       return Error{"no folder " + inQuotes(folder_.string()) + " can be made: " + problem.message()};
     }
@@ -72,14 +85,15 @@ class ReportFolder {
 
  private:
   std::filesystem::path folder_;
-  bool made_ = false, kept_ = false;
+  std::vector<std::filesystem::path> made_;  // from the uppermost down
+  bool kept_ = false;
 };
 
 class ReportCommand final : public Command {
  public:
   explicit ReportCommand(CLI::App& parent)
       : Command(parent, "report", "measure speed beside error: tables, plots and one page") {
-    const std::string doc = "fewer samples: a minute or two instead of some twenty";
+    const std::string doc = "fewer samples: a minute or two instead of up to five";
     quick_ = application().add_flag("--quick", doc)->disable_flag_override();
     frames_ = application()
                   .add_option("--frames", "FILE that teren-fly --stats wrote, for the page; repeat for more")
@@ -96,7 +110,7 @@ class ReportCommand final : public Command {
     if (const Result<void> made = folder.make(); !made) return fail(kWrongInput, made.error().message);
     const Effort effort = quick_->count() > 0 ? Effort::ofAMinute() : Effort::full();
     const Interruption interruption;
-    const Result<MeasuredReport> report = measureShowingProgress(effort, interruption);
+    const Result<MeasuredReport> report = measureShowingProgress(*frames, effort, interruption);
     if (!report) return fail(kWorkFailed, report.error().message);
     const std::vector<ReportFile> files = filesOf(*report, *frames, effort);
     if (interruption.came()) return fail(kWorkFailed, "interrupted");
@@ -105,16 +119,16 @@ class ReportCommand final : public Command {
   }
 
  private:
-  static Result<MeasuredReport> measureShowingProgress(const Effort& effort,
+  static Result<MeasuredReport> measureShowingProgress(const Table& frames, const Effort& effort,
                                                        const Interruption& interruption) {
-    constexpr std::size_t kParts = 5;
+    constexpr std::size_t kParts = 6;
     std::optional<ProgressLine> line;
     std::size_t part = 0;
     const auto begin = [&](const std::string& name) {
       line.emplace("parts, now " + name);
       ++part;
     };
-    return measureReport(*PluginRegistry::standard(), defaultsInCode(), effort, begin, [&] {
+    return measureReport(*PluginRegistry::standard(), defaultsInCode(), frames, effort, begin, [&] {
       if (line) line->show(part - 1, kParts);
       return !interruption.came();
     });

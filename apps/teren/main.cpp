@@ -51,6 +51,7 @@ int main(int argumentCount, char** arguments) {
   commands.push_back(teren::makeDescribeCommand(application));
   commands.push_back(teren::makeBakeCommand(application));
   commands.push_back(teren::makeQueryCommand(application));
+  commands.push_back(teren::makeEditsCommand(application));
   commands.push_back(teren::makeFlightCommand(application));
   commands.push_back(teren::makeNewPluginCommand(application));
   commands.push_back(teren::makeCheckCommand(application));
@@ -64,7 +65,8 @@ int main(int argumentCount, char** arguments) {
   for (const auto& command : commands) {
     if (command->chosen()) return finish(application, run(application, *command));
   }
-  return teren::fail(application, teren::kWrongInput,
-                     "a command is missing: plugins, describe, bake, query, flight, new-plugin, check, "
-                     "sand or report (see teren --help)");
+  return teren::fail(
+      application, teren::kWrongInput,
+      "a command is missing: plugins, describe, bake, query, edits, flight, new-plugin, check, "
+      "sand or report (see teren --help)");
 }

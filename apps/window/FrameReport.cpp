@@ -39,11 +39,18 @@ std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameSta
 }
 
 std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameStatistics& engineMicroseconds,
-                        const EngineFigures& figures, std::size_t bytes, const PixelError& pixelError) {
+                        const EngineFigures& figures, std::size_t bytes, const PixelError& pixelError,
+                        const std::optional<DetailSettings>& detail, std::size_t edits) {
   nlohmann::ordered_json all =
       report(frameMilliseconds, engineMicroseconds,
              {{"triangles", figures.triangles}, {"nodes", figures.nodes}, {"bytes", bytes}});
   all["pixel_error"] = {{"p99", rounded(pixelError.p99)}, {"max", rounded(pixelError.max)}};
+  if (detail) {
+    all["detail"] = {{"pixel_error", rounded(detail->pixelError)},
+                     {"distance", rounded(detail->distance)},
+                     {"lines", rounded(detail->lines)}};
+  }
+  if (edits > 0) all["edits"] = edits;
   return text(all);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -22,8 +23,10 @@ std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameSta
 
 /// The same with "triangles", "nodes", "bytes" and "pixel_error": {"p99", "max"}, as they are at the end.
 /// `bytes` are the engine's and the graphics buffers'; a program that draws the level-0 surface itself has no
-/// pixel error.
+/// pixel error. With detail by error what was wanted, too: "detail": {"pixel_error", "distance", "lines"};
+/// and of edited land how many edits there are: "edits".
 std::string frameReport(const FrameStatistics& frameMilliseconds, const FrameStatistics& engineMicroseconds,
-                        const EngineFigures& figures, std::size_t bytes, const PixelError& pixelError = {});
+                        const EngineFigures& figures, std::size_t bytes, const PixelError& pixelError = {},
+                        const std::optional<DetailSettings>& detail = std::nullopt, std::size_t edits = 0);
 
 }  // namespace teren

@@ -42,6 +42,37 @@ std::pair<double, double> sectorsOf(const Place& place) {
   return {first * kPerTurn, last * kPerTurn};
 }
 
+/// Whether a triangle of the mesh is under a place [steps] of its plan, all of it below the height [m], moved
+/// or not.
+bool isUnder(const Mesh& mesh, const MovedVertices& moved, double x, double y, double height) {
+  const TriangleIndices& indices = *mesh.indices;
+  for (std::size_t at = 0; at + 2 < indices.size(); at += 3) {
+    const std::array<const SurfaceVertex*, 3> corners{
+        &mesh.vertices[indices[at]], &mesh.vertices[indices[at + 1]], &mesh.vertices[indices[at + 2]]};
+    const auto isInside = [&](std::size_t from, std::size_t to) {
+      const SurfaceVertex &a = *corners[from], &b = *corners[to];
+      return (a.column - x) * (b.row - y) - (b.column - x) * (a.row - y) >= 0.0;
+    };
+    if (!isInside(0, 1) || !isInside(1, 2) || !isInside(2, 0)) continue;
+    return std::all_of(corners.begin(), corners.end(), [&](const SurfaceVertex* corner) {
+      return static_cast<double>(std::max(corner->height, moved.height(mesh, *corner))) < height;
+    });
+  }
+  return false;
+}
+
+/// Whether there is ground below the eye, and surely below.
+bool isAboveGround(const Scene& scene, const MovedVertices& moved, const ScenePlacement& placement,
+                   const SbVec3d& eye) {
+  return std::any_of(scene.meshes().begin(), scene.meshes().end(), [&](const auto& mesh) {
+    const SbVec3d corner = placement.position(Sample{mesh->originColumn, mesh->originRow});
+    const double step = std::ldexp(placement.spacing(), mesh->level);
+    const double x = (eye[0] - corner[0]) / step, y = (eye[1] - corner[1]) / step;
+    const bool isOver = 0.0 <= x && x <= mesh->columns && 0.0 <= y && y <= mesh->rows;
+    return isOver && isUnder(*mesh, moved, x, y, eye[2] - corner[2]);
+  });
+}
+
 std::size_t wrapped(int sector) {
   return static_cast<std::size_t>(sector) % GroundHorizon::kSectors;
 }
@@ -130,8 +161,10 @@ bool GroundHorizon::isBelow(const Part& part) const noexcept {
   return true;
 }
 
-void GroundHorizon::leaveOutHidden(std::vector<const Mesh*>& meshes, const ScenePlacement& placement,
+void GroundHorizon::leaveOutHidden(std::vector<const Mesh*>& meshes, const Scene& scene,
+                                   const MovedVertices& moved, const ScenePlacement& placement,
                                    const SbVec3d& eye, double nearest) {
+  if (!isAboveGround(scene, moved, placement, eye)) return;
   ridges_.clear();
   parts_.clear();
   seen_.assign(meshes.size(), 0);

@@ -10,26 +10,29 @@
 
 #include "teren/Scene.h"
 
+#include "coin/MovedVertices.h"
 #include "coin/ScenePlacement.h"
 
 namespace teren {
 
-/// The land is a function, so a line of sight that is below its surface in one place has met it before: what
-/// lies farther in that direction and not higher is hidden. In squares of kBlock x kBlock intervals the
-/// surface is nowhere lower than its lowest vertex; around the eye such squares raise a horizon, sector by
-/// sector, in the order of their distance, and a mesh whose squares all stay below the horizon as it is on
-/// this side of them cannot be seen. Nothing is taken for hidden that is not, in exact arithmetic; in
-/// doubles, to a millionth of a pixel.
+/// The land is a function, so a line of sight that begins above its surface and is below it in one place has
+/// met it before: what lies farther in that direction and not higher is hidden. In squares of kBlock x kBlock
+/// intervals the surface is nowhere lower than its lowest vertex; around the eye such squares raise a
+/// horizon, sector by sector, in the order of their distance, and a mesh whose squares all stay below the
+/// horizon as it is on this side of them cannot be seen. Nothing is taken for hidden that is not, in exact
+/// arithmetic; in doubles, to a millionth of a pixel. An eye below the ground, or beyond the land's end, may
+/// see slopes from below through what it does not see from behind: for it nothing is left out.
 class GroundHorizon {
  public:
   static constexpr int kBlock = 4;       ///< larger: less hidden is found, for less time
   static constexpr int kSectors = 1024;  ///< of the whole horizon
 
-  /// Takes the meshes that cannot be seen from `eye` out of `meshes`, those of one scene that are in the
-  /// picture. Ground nearer than `nearest` [m], the camera's near plane, is not drawn and hides nothing:
-  /// where there is any, all meshes stay. A millisecond for 200 meshes.
-  void leaveOutHidden(std::vector<const Mesh*>& meshes, const ScenePlacement& placement, const SbVec3d& eye,
-                      double nearest);
+  /// Takes the meshes that cannot be seen from `eye` out of `meshes`, those of `scene`, its vertices
+  /// moved like this, that are in the picture. Ground nearer than `nearest` [m], the camera's near plane, is
+  /// not drawn and hides nothing: where there is any, all meshes stay. A millisecond for 200 meshes,
+  /// and a look at every mesh of the scene.
+  void leaveOutHidden(std::vector<const Mesh*>& meshes, const Scene& scene, const MovedVertices& moved,
+                      const ScenePlacement& placement, const SbVec3d& eye, double nearest);
   /// Must be called before a mesh dies.
   void forget(const Mesh& mesh) { blocks_.erase(&mesh); }
 

@@ -22,6 +22,7 @@ class PlainPainter final : public TerrainPainter {
   static constexpr double kAnchorStep = 64.0;  ///< [m] halving it halves what a vertex strays on the screen
 
   bool knowsLogarithmicDepth() const noexcept override { return false; }
+  bool movesVertices() const noexcept override { return false; }
   void draw(const Picture& picture, std::span<const Mesh* const> meshes) override;
   void forget(const Mesh& mesh) override { drawn_.erase(&mesh); }
   void release() override { drawn_.clear(); }

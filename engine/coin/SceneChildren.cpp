@@ -53,7 +53,7 @@ void SceneChildren::show(std::shared_ptr<const Scene> next) {
   index = 0;
   for (const std::shared_ptr<const Mesh>& mesh : change.added) {
     while (index < list_.getLength() && idOf(list_, index) < mesh->id) ++index;
-    list_.insert(new SoTerrainMesh(mesh, next->spacing()), index);
+    list_.insert(new SoTerrainMesh(mesh, next->spacing(), moved_), index);
   }
   scene_ = std::move(next);
   assert(static_cast<std::size_t>(list_.getLength()) == scene_->meshes().size());

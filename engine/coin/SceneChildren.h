@@ -8,6 +8,7 @@
 
 #include "teren/Scene.h"
 
+#include "coin/MovedVertices.h"
 #include "coin/ScenePlacement.h"
 
 class SoAction;
@@ -30,6 +31,10 @@ class SceneChildren {
   /// Shows another snapshot of the same engine: makes and drops only what differs. Notifies nobody.
   void show(std::shared_ptr<const Scene> next);
 
+  /// How vertices were in the last picture, for what is picked.
+  void setMoved(const MovedVertices& moved) { *moved_ = moved; }
+  const MovedVertices& moved() const noexcept { return *moved_; }
+
   /// Around all meshes, on their measured heights; empty without any.
   SbBox3f box(const ScenePlacement& placement) const;
 
@@ -43,6 +48,7 @@ class SceneChildren {
   SoNode& parent_;
   std::shared_ptr<const Scene> scene_;
   SoChildList list_;
+  std::shared_ptr<MovedVertices> moved_ = std::make_shared<MovedVertices>();  // a child may live longer
 };
 
 }  // namespace teren

@@ -81,14 +81,21 @@ void pointAttributes(const std::byte* vertices) {
 
 constexpr std::array<GLuint, 5> kOfVertices{kCell, kHeight, kSlope, kCoarserHeight, kCoarserSlope};
 
-constexpr double kAnchorStep = 1.0;  // [m]
-
-/// A sample's place in the period of the ground's texture, -512 ... 511.
-float inPeriod(std::int64_t sample) {
-  constexpr std::int64_t kPeriod = 1024;
-  const std::int64_t ahead = ((sample % kPeriod) + kPeriod) % kPeriod;
-  return static_cast<float>(ahead < kPeriod / 2 ? ahead : ahead - kPeriod);
-}
+/// The ground's texture repeats after about 2 km and exactly kGrains grains, which are a whole number of
+/// samples, so that its place is exact anywhere. Patterns are as large on any lattice.
+struct Period {
+  static constexpr double kGrains = 1024.0, kMetres = 2048.0;
+  explicit Period(double spacing)
+      : samples(static_cast<std::int64_t>(std::clamp(std::round(kMetres / spacing), 1.0, 0x1p23))),
+        grain(kGrains / static_cast<double>(samples)) {}
+  /// [grains] -kGrains / 2 ... kGrains / 2
+  float place(std::int64_t sample) const {
+    const std::int64_t ahead = ((sample % samples) + samples) % samples;
+    return static_cast<float>(grain * static_cast<double>(2 * ahead < samples ? ahead : ahead - samples));
+  }
+  std::int64_t samples;
+  double grain;  // grains of a sample
+};
 
 const SbVec3f kDeepWater(0.05F, 0.16F, 0.22F);
 constexpr int kClearRings = 14;  // of the water's disc: see kClearShare
@@ -250,10 +257,12 @@ void ShaderPainter::prepare(const ShaderProgram& program, const Picture& picture
   program.set("tolerance", picture.morph.tolerance());
   program.set("ranges", picture.morph.ranges());
   program.set("detailEye", SbVec3f(picture.detailEye - picture.placement.position(anchor)));
-  program.set("phase", inPeriod(anchor.sample.column), inPeriod(anchor.sample.row));
+  const Period period(picture.placement.spacing());
+  program.set("phase", period.place(anchor.sample.column), period.place(anchor.sample.row));
+  program.set("grain", static_cast<float>(period.grain));
   program.set("sun", picture.sun);
   program.set("viewDistance", picture.viewDistance);
-  program.set("detailEnds", static_cast<float>(detailEnds(picture)));
+  program.set("detailEnds", static_cast<float>(kDetailEnds));
   program.set("waterLevel", picture.waterLevel);
   program.set("haze", picture.haze);
   program.set("sunlight", picture.sunlight);
@@ -300,9 +309,9 @@ const ShaderProgram& ShaderPainter::programFor(const Mesh& mesh, const Picture& 
   const SbVec3f eye(picture.eye);
   const float away = (picture.placement.box(mesh).getClosestPoint(eye) - eye).length();
   const bool plain = mesh.maxHeight <= kSnowAbove && mesh.minHeight >= picture.waterLevel + kShoreBelow;
-  return programs_[depth].ground[static_cast<double>(away) >= detailEnds(picture) ? kDistant
-                                 : plain                                          ? kPlain
-                                                                                  : kHighOrLowGround];
+  return programs_[depth].ground[static_cast<double>(away) >= kDetailEnds ? kDistant
+                                 : plain                                  ? kPlain
+                                                                          : kHighOrLowGround];
 }
 
 void ShaderPainter::drawGround(const Picture& picture, const Sample& anchor, const SbDPMatrix& toClip,
@@ -345,7 +354,7 @@ void ShaderPainter::drawFarWater(const Picture& picture) {
   const std::span<const ShaderProgram, kWaters> water =
       programs_[picture.depthScale ? kByFragment : kOrdinary].water;
   glDisable(GL_BLEND);
-  const bool smooth = static_cast<double>(kClearShare * picture.viewDistance) >= detailEnds(picture);
+  const bool smooth = static_cast<double>(kClearShare * picture.viewDistance) >= kDetailEnds;
   water[smooth ? kSmoothWater : kRippledWater].use();
   water_.draw(cells_, kClearRings, WaterCells::kRings - kClearRings, kCell);
   glPushAttrib(GL_DEPTH_BUFFER_BIT);
@@ -360,10 +369,6 @@ void ShaderPainter::drawClearWater(const Picture& picture) {
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   programs_[picture.depthScale ? kByFragment : kOrdinary].water[kRippledWater].use();
   water_.draw(cells_, 0, kClearRings, kCell);
-}
-
-double ShaderPainter::detailEnds(const Picture& picture) {
-  return kDetailEnds * picture.placement.spacing();
 }
 
 }  // namespace teren

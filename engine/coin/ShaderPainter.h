@@ -38,10 +38,12 @@ class ShaderProgram {
 
 class ShaderPainter final : public TerrainPainter {
  public:
+  static constexpr double kAnchorStep = 1.0;  ///< [m] of the anchors that vertices are counted from
   /// Fails where the context has no GLSL 1.20 or does not take the programs.
   static Result<std::unique_ptr<TerrainPainter>> create();
 
   bool knowsLogarithmicDepth() const noexcept override { return true; }
+  bool movesVertices() const noexcept override { return true; }
   void draw(const Picture& picture, std::span<const Mesh* const> meshes) override;
   void forget(const Mesh& mesh) override;
   void release() override;
@@ -60,7 +62,6 @@ class ShaderPainter final : public TerrainPainter {
   Result<void> link();
   static void prepare(const ShaderProgram& program, const Picture& picture, const Anchor& anchor,
                       const SbDPMatrix& toClip);
-  static double detailEnds(const Picture& picture);  // [m] from the eye
   void makeNoise();
   const ShaderProgram& programFor(const Mesh& mesh, const Picture& picture, const SbDPMatrix& toClip);
   void drawGround(const Picture& picture, const Sample& anchor, const SbDPMatrix& toClip,

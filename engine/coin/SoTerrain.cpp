@@ -39,6 +39,7 @@
 #include "coin/GroundHorizon.h"
 #include "coin/LogarithmicDepth.h"
 #include "coin/SceneChildren.h"
+#include "coin/ShaderPainter.h"
 #include "coin/SoTerrainMesh.h"
 #include "coin/TerrainLook.h"
 #include "coin/TerrainRenderer.h"
@@ -62,6 +63,13 @@ std::string refusal(const char* name, const Vector& values, const char* expected
   std::string sentence = std::string(name) + " is";
   for (int axis = 0; axis < 3; ++axis) sentence += " " + teren::numberText(static_cast<double>(values[axis]));
   return sentence + ", expected " + expected;
+}
+
+/// As the vertex shader moves them.
+teren::MovedVertices movedIn(const teren::Picture& picture) {
+  const teren::Anchor anchor = picture.placement.anchorNear(picture.eye, teren::ShaderPainter::kAnchorStep);
+  return {picture.morph, anchor, SbVec3f(picture.detailEye - picture.placement.position(anchor)),
+          picture.placement.spacing()};
 }
 
 }  // namespace
@@ -92,6 +100,7 @@ class SoTerrain::Private {
 
   bool isWet() const;
   teren::Picture look(SoState* state) const;
+  const teren::Morph& morph() const { return detailMorph ? *detailMorph : children.scene()->morph(); }
   void takeOrigin();
   void takeBudget();
   void takeHaze();
@@ -105,15 +114,16 @@ class SoTerrain::Private {
   teren::FieldEngine source;
   SoTimerSensor timer;
   SbTime lastTick = SbTime::zero();
-  bool fed = false;                  // by setScene()
-  bool fieldsChanged = true;         // since the last attempt to make an engine
-  bool showsThisEngine = false;      // whether the scene is one of source.engine()
-  bool eyeMoved = true;              // since the last update
-  SbVec3d eye{0.0, 0.0, 0.0};        // of the last traversal, in scene coordinates
-  SbVec3d eyePlace{0.0, 0.0, 0.0};   // the same in the world
-  std::optional<SbVec3d> detailEye;  // where it is not the picture's own
-  SbVec3d origin{0.0, 0.0, 0.0};     // the last good one, as the next two
-  double budget = 0.004;             // [s]
+  bool fed = false;                         // by setScene()
+  bool fieldsChanged = true;                // since the last attempt to make an engine
+  bool showsThisEngine = false;             // whether the scene is one of source.engine()
+  bool eyeMoved = true;                     // since the last update
+  SbVec3d eye{0.0, 0.0, 0.0};               // of the last traversal, in scene coordinates
+  SbVec3d eyePlace{0.0, 0.0, 0.0};          // the same in the world
+  std::optional<SbVec3d> detailEye;         // where it is not the picture's own
+  std::optional<teren::Morph> detailMorph;  // where it is not the snapshot's own
+  SbVec3d origin{0.0, 0.0, 0.0};            // the last good one, as the next two
+  double budget = 0.004;                    // [s]
   SbColor haze{0.76F, 0.84F, 0.92F};
   float distance = 1500.0F;  // [m] the last good one
   std::string worldFile;     // where the file named by `world` is
@@ -226,7 +236,7 @@ teren::Picture SoTerrain::Private::look(SoState* state) const {
   teren::Picture picture{placement()};
   picture.eye = teren::eyePosition(state);
   picture.detailEye = detailEye.value_or(picture.eye);
-  if (teren::fieldOfView(state)) picture.morph = children.scene()->morph();
+  if (teren::fieldOfView(state)) picture.morph = morph();
   const teren::Sun sun = teren::sunOf(state);
   picture.sun = sun.direction;
   picture.sunlight = sun.light;
@@ -349,9 +359,16 @@ void SoTerrain::setTint(std::function<SbColor(const teren::Mesh&)> tint) {
   touch();
 }
 
-void SoTerrain::setDetailEye(const std::optional<SbVec3d>& eye) {
+void SoTerrain::setDetailEye(const std::optional<SbVec3d>& eye, const std::optional<teren::Morph>& morph) {
   private_->detailEye = eye;
+  private_->detailMorph = morph;
   touch();
+}
+
+std::optional<SbVec3d> SoTerrain::movedWith() const {
+  const teren::MovedVertices& moved = private_->children.moved();
+  if (!moved.move()) return std::nullopt;
+  return private_->placement().position(moved.anchor()) + SbVec3d(moved.eye());
 }
 
 std::shared_ptr<const teren::Scene> SoTerrain::scene() const {
@@ -509,7 +526,8 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
     std::erase_if(meshes, [&](const teren::Mesh* mesh) { return teren::isLostInWater(*mesh, picture); });
   }
   if (const std::optional<double> nearest = teren::nearestDrawn(state)) {
-    private_->horizon.leaveOutHidden(meshes, picture.placement, picture.eye, *nearest);
+    private_->horizon.leaveOutHidden(meshes, *private_->children.scene(), movedIn(picture), picture.placement,
+                                     picture.eye, *nearest);
   }
   for (const teren::Mesh* mesh : meshes) private_->drawnTriangles += mesh->indices->size() / 3;
   private_->tints.clear();
@@ -518,7 +536,9 @@ void SoTerrain::GLRender(SoGLRenderAction* action) {
   }
   picture.tints = private_->tints;
   const auto context = static_cast<std::uint32_t>(SoGLCacheContextElement::get(state));
-  private_->drewLogarithmicDepth = private_->renderer.draw(context, picture, meshes);
+  const teren::TerrainRenderer::Drawn drawn = private_->renderer.draw(context, picture, meshes);
+  private_->drewLogarithmicDepth = drawn.logarithmicDepth;
+  private_->children.setMoved(drawn.movedVertices ? movedIn(picture) : teren::MovedVertices());
   if (private_->source.engine() != nullptr) {
     private_->source.engine()->setRendererBytes(private_->renderer.bytes());
   }

@@ -17,6 +17,8 @@
 #include <Inventor/fields/SoSFVec3d.h>
 #include <Inventor/nodes/SoSubNode.h>
 
+#include "teren/Morph.h"
+
 namespace teren {
 class Engine;
 class Scene;
@@ -117,8 +119,13 @@ class SoTerrain : public SoNode {
   /// The snapshot shown, never null.
   std::shared_ptr<const teren::Scene> scene() const;
   /// In scene coordinates, the eye whose distance says how far the ground's vertices have moved to the next
-  /// coarser level (Morph.h), where it is not the camera: to look from aside at what another eye sees.
-  void setDetailEye(const std::optional<SbVec3d>& eye);
+  /// coarser level (Morph.h), where it is not the camera: to look from aside at what another eye sees. And
+  /// how they move, where it is not the snapshot's own way: in the picture of another view of its engine
+  /// (Engine::morph).
+  void setDetailEye(const std::optional<SbVec3d>& eye, const std::optional<teren::Morph>& morph = {});
+  /// In scene coordinates, the eye that vertices moved with in the last GL traversal that drew ground: so
+  /// they are picked. Empty where they lay still: before the first, without perspective, and without shaders.
+  std::optional<SbVec3d> movedWith() const;
 
   /// The node's own engine, made now if a field has changed; nullptr after setScene() or where the fields
   /// have never been good. It dies with the next good change of a field.

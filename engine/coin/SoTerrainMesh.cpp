@@ -51,8 +51,11 @@ SoTerrainMesh::SoTerrainMesh() {
   SO_NODE_CONSTRUCTOR(SoTerrainMesh);
 }
 
-SoTerrainMesh::SoTerrainMesh(std::shared_ptr<const teren::Mesh> mesh, double spacing) : SoTerrainMesh() {
+SoTerrainMesh::SoTerrainMesh(std::shared_ptr<const teren::Mesh> mesh, double spacing,
+                             std::shared_ptr<const teren::MovedVertices> moved)
+    : SoTerrainMesh() {
   mesh_ = std::move(mesh);
+  moved_ = std::move(moved);
   step_ = static_cast<float>(spacing * static_cast<double>(std::int64_t{1} << mesh_->level));
 }
 
@@ -82,6 +85,25 @@ SbVec3f SoTerrainMesh::normal(const teren::SurfaceVertex& vertex) {
   return {x, y, std::sqrt(std::fmax(0.0F, 1.0F - x * x - y * y))};
 }
 
+float SoTerrainMesh::share(const teren::SurfaceVertex& vertex) const {
+  return moved_ ? moved_->share(*mesh_, vertex) : 0.0F;
+}
+
+SbVec3f SoTerrainMesh::drawnPoint(const teren::SurfaceVertex& vertex) const {
+  SbVec3f drawn = point(vertex);
+  if (moved_) drawn[2] = moved_->height(*mesh_, vertex);
+  return drawn;
+}
+
+/// As the vertex shader mixes them.
+SbVec3f SoTerrainMesh::drawnNormal(const teren::SurfaceVertex& vertex) const {
+  const float t = share(vertex);
+  if (t == 0.0F) return normal(vertex);
+  const float x = (vertex.normalX * (1.0F - t) + static_cast<float>(vertex.coarserX()) * t) / 32767.0F;
+  const float y = (vertex.normalY * (1.0F - t) + vertex.coarserNormalY * t) / 32767.0F;
+  return {x, y, std::sqrt(std::fmax(0.0F, 1.0F - x * x - y * y))};
+}
+
 void SoTerrainMesh::generatePrimitives(SoAction* action) {
   if (!mesh_) return;
   SoPrimitiveVertex corner;
@@ -106,10 +128,9 @@ void SoTerrainMesh::rayPick(SoRayPickAction* action) {
   const std::optional<SbBox3f> near = partInside(action->getLine(), box);
   if (!near) return;
   const SbVec3f low = near->getMin() - margin, high = near->getMax() + margin;
+  const float middle = 0.5F * (low[2] + high[2]);
   // A triangle is far from the ray where all of its corners lie on one side of that part of the ray.
-  const auto isFar = [&](const std::array<const teren::SurfaceVertex*, 3>& corners) {
-    std::array<SbVec3f, 3> points;
-    for (std::size_t k = 0; k < 3; ++k) points[k] = point(*corners[k]);
+  const auto isFar = [&](const std::array<SbVec3f, 3>& points) {
     for (int axis = 0; axis < 3; ++axis) {
       if (points[0][axis] < low[axis] && points[1][axis] < low[axis] && points[2][axis] < low[axis])
         return true;
@@ -122,21 +143,25 @@ void SoTerrainMesh::rayPick(SoRayPickAction* action) {
   for (std::size_t at = 0; at + 2 < indices.size(); at += 3) {
     const std::array<const teren::SurfaceVertex*, 3> corners{
         &mesh_->vertices[indices[at]], &mesh_->vertices[indices[at + 1]], &mesh_->vertices[indices[at + 2]]};
-    if (!isFar(corners)) pickTriangle(*action, corners);
+    std::array<SbVec3f, 3> points{point(*corners[0]), point(*corners[1]), point(*corners[2])};
+    for (SbVec3f& flat : points) flat[2] = middle;  // heights cost more: the plan first
+    if (isFar(points)) continue;
+    for (std::size_t k = 0; k < 3; ++k) points[k] = drawnPoint(*corners[k]);
+    if (!isFar(points)) pickTriangle(*action, corners, points);
   }
 }
 
 void SoTerrainMesh::pickTriangle(SoRayPickAction& action,
-                                 const std::array<const teren::SurfaceVertex*, 3>& corners) const {
+                                 const std::array<const teren::SurfaceVertex*, 3>& corners,
+                                 const std::array<SbVec3f, 3>& points) const {
   SbVec3f hit, weights;
   SbBool front = FALSE;
-  if (!action.intersect(point(*corners[0]), point(*corners[1]), point(*corners[2]), hit, weights, front))
-    return;
+  if (!action.intersect(points[0], points[1], points[2], hit, weights, front)) return;
   if (!action.isBetweenPlanes(hit)) return;
   SoPickedPoint* picked = action.addIntersection(hit, front);
   if (picked == nullptr) return;  // another one is nearer
   SbVec3f middle(0.0F, 0.0F, 0.0F);
-  for (int k = 0; k < 3; ++k) middle += weights[k] * normal(*corners[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < 3; ++k) middle += weights[k] * drawnNormal(*corners[static_cast<std::size_t>(k)]);
   middle.normalize();
   picked->setObjectNormal(middle);
 }

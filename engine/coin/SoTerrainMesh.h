@@ -10,10 +10,13 @@
 
 #include "teren/Scene.h"
 
+#include "coin/MovedVertices.h"
+
 /// Picking, bounding boxes, callbacks and searches see each mesh as this shape, in metres east and north of
 /// its own south-west vertex and at absolute height; SoTerrain moves it into place. SoTerrain itself draws
 /// all of its meshes at once; a mesh drawn alone goes the plain way of shapes. Immutable; made only by
-/// programs, never read from files, and without fields.
+/// programs, never read from files, and without fields. Picking sees its vertices where the last picture had
+/// them; callbacks, as they lie.
 class SoTerrainMesh : public SoShape {
   typedef SoShape inherited;  // NOLINT: the name SO_NODE_HEADER expects
 
@@ -23,8 +26,10 @@ class SoTerrainMesh : public SoShape {
   static void initClass();
   /// Without a mesh: an empty shape.
   SoTerrainMesh();
-  /// `spacing` [m] between level-0 samples.
-  SoTerrainMesh(std::shared_ptr<const teren::Mesh> mesh, double spacing);
+  /// `spacing` [m] between level-0 samples. `moved`: how its vertices were in the last picture, kept up to
+  /// date by whoever draws; nullptr: as they lie.
+  SoTerrainMesh(std::shared_ptr<const teren::Mesh> mesh, double spacing,
+                std::shared_ptr<const teren::MovedVertices> moved = nullptr);
 
   /// nullptr for an empty shape.
   const std::shared_ptr<const teren::Mesh>& mesh() const noexcept { return mesh_; }
@@ -42,8 +47,14 @@ class SoTerrainMesh : public SoShape {
  private:
   SbVec3f point(const teren::SurfaceVertex& vertex) const;
   static SbVec3f normal(const teren::SurfaceVertex& vertex);
-  void pickTriangle(SoRayPickAction& action, const std::array<const teren::SurfaceVertex*, 3>& corners) const;
+  /// Of the last picture.
+  float share(const teren::SurfaceVertex& vertex) const;
+  SbVec3f drawnPoint(const teren::SurfaceVertex& vertex) const;
+  SbVec3f drawnNormal(const teren::SurfaceVertex& vertex) const;
+  void pickTriangle(SoRayPickAction& action, const std::array<const teren::SurfaceVertex*, 3>& corners,
+                    const std::array<SbVec3f, 3>& points) const;
 
   std::shared_ptr<const teren::Mesh> mesh_;
+  std::shared_ptr<const teren::MovedVertices> moved_;
   float step_ = 1.0F;  // [m] between the mesh's own samples
 };

@@ -56,6 +56,8 @@ class TerrainPainter {
 
   /// Whether it heeds Picture::depthScale.
   virtual bool knowsLogarithmicDepth() const noexcept = 0;
+  /// Whether it heeds Picture::morph.
+  virtual bool movesVertices() const noexcept = 0;
   /// Draws the meshes, which are best sorted front to back, then the water.
   virtual void draw(const Picture& picture, std::span<const Mesh* const> meshes) = 0;
   /// The mesh will not be drawn again and may die.

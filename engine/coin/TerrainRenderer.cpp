@@ -41,12 +41,12 @@ TerrainRenderer::~TerrainRenderer() {
   }
 }
 
-bool TerrainRenderer::draw(std::uint32_t context, const Picture& picture,
-                           std::span<const Mesh* const> meshes) {
+TerrainRenderer::Drawn TerrainRenderer::draw(std::uint32_t context, const Picture& picture,
+                                             std::span<const Mesh* const> meshes) {
   std::unique_ptr<TerrainPainter>& painter = painters_[context];
   if (!painter) painter = makePainter();
   painter->draw(picture, meshes);
-  return picture.depthScale.has_value() && painter->knowsLogarithmicDepth();
+  return {picture.depthScale.has_value() && painter->knowsLogarithmicDepth(), painter->movesVertices()};
 }
 
 void TerrainRenderer::forget(const Mesh& mesh) {

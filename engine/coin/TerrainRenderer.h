@@ -21,9 +21,12 @@ class TerrainRenderer {
   TerrainRenderer(const TerrainRenderer&) = delete;
   TerrainRenderer& operator=(const TerrainRenderer&) = delete;
 
-  /// Draws in the current context, whose number Inventor knows as `context`. Returns whether the depth is
-  /// logarithmic: where the picture wishes it and the context has shaders.
-  bool draw(std::uint32_t context, const Picture& picture, std::span<const Mesh* const> meshes);
+  /// What of a picture's wishes were met: those that take shaders.
+  struct Drawn {
+    bool logarithmicDepth = false, movedVertices = false;
+  };
+  /// Draws in the current context, whose number Inventor knows as `context`.
+  Drawn draw(std::uint32_t context, const Picture& picture, std::span<const Mesh* const> meshes);
   /// Must be called before a mesh that was drawn dies.
   void forget(const Mesh& mesh);
   /// [bytes] in GL's buffers, of all contexts.

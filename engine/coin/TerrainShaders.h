@@ -30,14 +30,14 @@ void placeDepth() {
 }
 )";
 
-/// Noise that repeats after 64 samples: from afar its repetition would be a pattern. `near` is 1 at the eye
+/// Noise that repeats after some 128 m: from afar its repetition would be a pattern. `near` is 1 at the eye
 /// and 0 from where there is none (see kDetailEnds).
 inline constexpr char kDetail[] = R"(
 uniform sampler2D noise;
 vec4 detail(vec2 place, float near) { return (texture2D(noise, place) - 0.5) * near; }
 )";
 inline constexpr char kNoDetail[] = "vec4 detail(vec2 place, float near) { return vec4(0.0); }\n";
-inline constexpr double kDetailEnds = 24.0 * 64.0;  ///< [samples] of level 0 from the eye
+inline constexpr double kDetailEnds = 3072.0;  ///< [m] from the eye
 
 /// Snow and shores are computed for meshes with ground above the one or below the other [m]: the noise moves
 /// them by so much at most.
@@ -61,7 +61,8 @@ uniform mat4 toClip;         // from positions relative to the eye
 uniform float spacing;       // [m]
 uniform float anchorHeight;  // [m]
 uniform vec3 eye;            // [m] from the anchor
-uniform vec2 phase;          // where in the texture's period of 1024 samples the anchor is
+uniform vec2 phase;          // where in the texture's period of 1024 grains the anchor is
+uniform float grain;         // grains of a sample
 uniform vec3 sun;            // towards it
 uniform float viewDistance;  // [m]
 uniform float tolerance;     // Morph
@@ -71,7 +72,7 @@ uniform sampler2D noise;
 uniform vec3 sunlight;
 uniform float waterLevel;    // [m]
 uniform float detailEnds;    // [m]
-varying vec2 samples;
+varying vec2 grains;
 varying vec4 growth;   // height, gradient, strata and woods, with the noise over hundreds of metres in them
 varying vec4 light;    // what of the ground's colour reaches the eye, and how much of the haze
 varying vec4 more;     // tone, depth below the water, how far beyond the view's end, how much detail
@@ -79,7 +80,7 @@ varying float direct;  // sunlight
 
 void main() {
   vec2 counted = cell * place.z + place.xy;
-  samples = counted + phase;
+  grains = counted * grain + phase;
   vec2 flatPlace = counted * spacing;
   float level = mod(coarserSlope.x, 16.0);
   vec2 range = ranges[int(level)];
@@ -100,7 +101,7 @@ void main() {
   float clear = exp(-1.1 * share) * (1.0 - cube * cube);
   float end = smoothstep(0.97, 1.0, 1.0 - clear);
   clear *= 1.0 - end;
-  vec4 broad = texture2DLod(noise, samples * (1.0 / 1024.0), 0.0) - 0.5;  // once a vertex is enough
+  vec4 broad = texture2DLod(noise, grains * (1.0 / 1024.0), 0.0) - 0.5;  // once a vertex is enough
   growth = vec4(drawn + 150.0 * broad.r, sqrt(squared) / up + 0.3 * broad.g, 0.028 * drawn + 4.0 * broad.r,
                 broad.a);
   light = vec4(clear * (1.0 + 0.3 * broad.g) * (vec3(0.40, 0.46, 0.56) + sunlight * direct), 1.0 - clear);
@@ -112,7 +113,7 @@ void main() {
 inline constexpr char kGroundFragmentShader[] = R"(
 uniform vec3 haze;
 uniform vec3 deep;  // what the water swallows
-varying vec2 samples;
+varying vec2 grains;
 varying vec4 growth;
 varying vec4 light;
 varying vec4 more;
@@ -123,7 +124,7 @@ float ramp(float from, float to, float value) {
 }
 
 void main() {
-  vec4 fine = detail(samples * (1.0 / 64.0), more.w);
+  vec4 fine = detail(grains * (1.0 / 64.0), more.w);
   float height = growth.x + 25.0 * fine.r;
   float steep = growth.y + 0.35 * fine.g;
 
@@ -177,19 +178,20 @@ uniform mat4 toClip;         // from positions relative to the eye
 uniform float spacing;       // [m]
 uniform float anchorHeight;  // [m]
 uniform vec3 eye;            // [m] from the anchor
-uniform vec2 phase;          // where in the texture's period of 1024 samples the anchor is
+uniform vec2 phase;          // where in the texture's period of 1024 grains the anchor is
+uniform float grain;         // grains of a sample
 uniform float viewDistance;  // [m]
 uniform float waterLevel;    // [m]
 uniform float clearShare;    // of the view distance: from there the water is opaque
 uniform float detailEnds;    // [m]
-varying vec2 samples;
+varying vec2 grains;
 varying vec4 view;  // from the eye, and the haze
 varying vec2 opaque;  // and how much detail
 
 void main() {
   vec3 position = vec3(cell * viewDistance, waterLevel - anchorHeight - eye.z);
   gl_Position = toClip * vec4(position, 1.0);
-  samples = (eye.xy + position.xy) / spacing + phase;
+  grains = (eye.xy + position.xy) / spacing * grain + phase;
   float share = min(length(cell), 1.0);
   opaque = clamp(vec2(1.5 * share / clearShare - 0.5, 2.0 - 2.0 * length(position) / detailEnds), 0.0, 1.0);
   float cube = share * share * share;
@@ -202,13 +204,13 @@ uniform vec3 haze;
 uniform vec3 deep;
 uniform vec3 sun;
 uniform vec3 sunlight;
-varying vec2 samples;
+varying vec2 grains;
 varying vec4 view;
 varying vec2 opaque;
 
 void main() {
-  // Turned, so that the repetition does not run along the axes; still whole periods in 1024 samples.
-  vec2 turned = vec2(3.0 * samples.x + samples.y, 3.0 * samples.y - samples.x);
+  // Turned, so that the repetition does not run along the axes; still whole periods in 1024 grains.
+  vec2 turned = vec2(3.0 * grains.x + grains.y, 3.0 * grains.y - grains.x);
   vec2 ripples = detail(turned * (1.0 / 256.0), opaque.y).rg;
   vec3 normal = vec3(0.26 * ripples, 1.0);  // of length 1 within 2 %
   vec3 ray = normalize(view.xyz);

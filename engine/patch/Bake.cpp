@@ -1,11 +1,13 @@
 #include "teren/Bake.h"
 
 #include <bit>
+#include <cassert>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "teren/EditedGround.h"
 #include "teren/Hash.h"
 #include "teren/HeightMapOperations.h"
 #include "teren/Parameter.h"
@@ -165,6 +167,10 @@ Result<HeightMap> bake(const World& world, const BakeRegion& region, const BakeO
   if (options.visitSeed != 0) shuffle(bake.nodes, options.visitSeed);
   const bool finished = options.workers == 0 ? bakeHere(bake) : bakeOnWorkers(bake);
   if (!finished) return Error{"cancelled"};
+  if (options.edits != nullptr) {
+    assert(&options.edits->world() == &world);
+    options.edits->overlay(region.level, columns->first, rows->first, bake.result.view());
+  }
   if (options.progress) options.progress(bake.done, bake.nodes.size());
   return std::move(bake.result);
 }

@@ -17,19 +17,23 @@
 
 namespace teren {
 
-/// A node's heights, shared, and the coarser samples around it, if there are any (NodeTask.h).
+/// A node's heights, shared, and the coarser samples around it, if there are any (NodeTask.h). Vertices of a
+/// node that `stays` draw near to nothing; the coarser samples are kept for when it does so no more.
 class NodeHeights {
  public:
   NodeHeights() = default;
   NodeHeights(std::nullptr_t) {}
-  NodeHeights(std::shared_ptr<const HeightMap> own, std::shared_ptr<const HeightMap> coarser = nullptr)
-      : own_(std::move(own)), coarser_(std::move(coarser)) {}
+  NodeHeights(std::shared_ptr<const HeightMap> own, std::shared_ptr<const HeightMap> coarser = nullptr,
+              bool stays = false)
+      : own_(std::move(own)), coarser_(std::move(coarser)), stays_(stays) {}
   NodeHeights(std::shared_ptr<HeightMap> own) : own_(std::move(own)) {}
 
   const HeightMap& operator*() const noexcept { return *own_; }
   const HeightMap* operator->() const noexcept { return own_.get(); }
   const HeightMap* get() const noexcept { return own_.get(); }
-  const HeightMap* coarser() const noexcept { return coarser_.get(); }
+  /// What vertices draw near to; null: nothing.
+  const HeightMap* coarser() const noexcept { return stays_ ? nullptr : coarser_.get(); }
+  const HeightMap* keptCoarser() const noexcept { return coarser_.get(); }
   explicit operator bool() const noexcept { return own_ != nullptr; }
 
   std::size_t bytes() const noexcept {
@@ -38,6 +42,7 @@ class NodeHeights {
 
  private:
   std::shared_ptr<const HeightMap> own_, coarser_;
+  bool stays_ = false;
 };
 
 /// Up to 2 x 2 neighbouring nodes of one level, south-west, south-east, north-west, north-east; those a piece

@@ -54,6 +54,15 @@ class PatchTree {
     }
   }
 
+  /// Calls visit(key, data) for every node with data for which mayHold(key) is true, and which lies in none
+  /// for which it is false; parents before children.
+  template <class MayHold, class Visit>
+  void forEachWhere(MayHold&& mayHold, Visit&& visit) const {
+    for (const Root& root : roots_) {
+      if (root.node) forEachWhereBelow(*root.node, root.key, mayHold, visit);
+    }
+  }
+
   /// Whether a node inside `key`, or itself, has data.
   bool hasIn(const NodeKey& key) const noexcept { return branchAt(key).node != nullptr; }
   /// Calls visit(key, data) for every node with data inside `key`, itself included, parents before children,
@@ -122,6 +131,16 @@ class PatchTree {
       if (branch && !forEachInBelow(*branch, key.child(static_cast<int>(child)), visit)) return false;
     }
     return true;
+  }
+
+  template <class MayHold, class Visit>
+  static void forEachWhereBelow(const Node& node, const NodeKey& key, MayHold& mayHold, Visit& visit) {
+    if (!mayHold(key)) return;
+    if (node.data) visit(key, node.data);
+    for (std::size_t child = 0; child < 4; ++child) {
+      const auto& branch = node.children[child];
+      if (branch) forEachWhereBelow(*branch, key.child(static_cast<int>(child)), mayHold, visit);
+    }
   }
 
   template <class Visit>

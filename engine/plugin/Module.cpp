@@ -96,9 +96,12 @@ Result<void> checkKind(const PluginDescription& description) {
     case PluginKind::filter:
       if (description.makeFilter == nullptr) return Error{"it is a filter but has no makeFilter"};
       return {};
+    case PluginKind::deformer:
+      if (description.makeDeformer == nullptr) return Error{"it is a deformer but has no makeDeformer"};
+      return {};
   }
   return Error{"its kind " + std::to_string(static_cast<std::uint32_t>(description.kind)) +
-               " is neither generator (1) nor filter (2)"};
+               " is none of generator (1), filter (2) and deformer (3)"};
 }
 
 Result<void> checkDescription(const PluginDescription* description, const std::string& expectedId) {

@@ -32,10 +32,6 @@ fs::path libraryFolder() {
   return error ? fs::path() : library.parent_path();
 }
 
-const char* kindName(PluginKind kind) {
-  return kind == PluginKind::generator ? "generator" : "filter";
-}
-
 /// Files named teren-*.so, sorted by name; directories and odd files included, so that they are reported.
 Result<std::vector<fs::path>> moduleFiles(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -49,19 +45,22 @@ Result<std::vector<fs::path>> moduleFiles(const fs::path& folder) {
   return files;
 }
 
-/// Calls a plugin's maker; what it throws becomes a sentence.
-template <class Base>
-Result<std::shared_ptr<const Base>> callMaker(std::unique_ptr<Base> (*make)(const Values&),
-                                              const Values& values, std::string_view id) {
+/// Calls a plugin's maker; what it throws becomes a sentence. A maker without parameters is a deformer's.
+template <class Base, class... Argument>
+Result<std::shared_ptr<const Base>> callMaker(std::string_view id,
+                                              std::unique_ptr<Base> (*make)(const Argument&...),
+                                              const Argument&... argument) {
+  constexpr bool hasValues = sizeof...(Argument) > 0;
+  const std::string refuses =
+      "plugin " + inQuotes(id) + (hasValues ? " refuses its parameters" : " refuses to be made");
   try {
-    std::shared_ptr<const Base> made = make(values);
-    if (made == nullptr) return Error{"plugin " + inQuotes(id) + " made nothing of its parameters"};
-    return made;
+    std::shared_ptr<const Base> made = make(argument...);
+    if (made != nullptr) return made;
+    return Error{"plugin " + inQuotes(id) + " made nothing" + (hasValues ? " of its parameters" : "")};
   } catch (const std::exception& exception) {
-    return Error{"plugin " + inQuotes(id) +
-                 " refuses its parameters: " + shortened(textOf(exception), kSentenceBytes)};
+    return Error{refuses + ": " + shortened(textOf(exception), kSentenceBytes)};
   } catch (...) {
-    return Error{"plugin " + inQuotes(id) + " refuses its parameters without saying why"};
+    return Error{refuses + " without saying why"};
   }
 }
 
@@ -222,7 +221,7 @@ Result<std::shared_ptr<const Generator>> PluginRegistry::makeGenerator(
   if (!module) return module.error();
   const Result<Values> values = Values::check((*module)->parameters, entries, id);
   if (!values) return values.error();
-  return callMaker<Generator>((*module)->description->makeGenerator, *values, id);
+  return callMaker(id, (*module)->description->makeGenerator, *values);
 }
 
 Result<std::shared_ptr<const Filter>> PluginRegistry::makeFilter(
@@ -231,7 +230,13 @@ Result<std::shared_ptr<const Filter>> PluginRegistry::makeFilter(
   if (!module) return module.error();
   const Result<Values> values = Values::check((*module)->parameters, entries, id);
   if (!values) return values.error();
-  return callMaker<Filter>((*module)->description->makeFilter, *values, id);
+  return callMaker(id, (*module)->description->makeFilter, *values);
+}
+
+Result<std::shared_ptr<const Deformer>> PluginRegistry::makeDeformer(std::string_view id) const {
+  const Result<std::shared_ptr<const Module>> module = moduleOf(id, PluginKind::deformer);
+  if (!module) return module.error();
+  return callMaker(id, (*module)->description->makeDeformer);
 }
 
 }  // namespace teren

@@ -80,6 +80,13 @@ double TerrainStage::water() const {
   return std::isfinite(level) ? std::max(level, kDry) : kDry;
 }
 
+SceneQuery TerrainStage::asDrawn(const SceneQuery& query) const {
+  const std::optional<SbVec3d> eye = terrain_->movedWith();
+  if (!eye) return query;
+  const Result<Position> position = zero_.position().movedBy((*eye)[0], (*eye)[1], pitch_);
+  return position ? query.seenFrom({*position, (*eye)[2] + zero_.height()}) : query;
+}
+
 Ray TerrainStage::sight(const SbVec2f& point, const SbVec2s& size) const {
   SbViewportRegion seen;
   SbLine line;

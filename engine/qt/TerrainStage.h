@@ -44,6 +44,8 @@ class TerrainStage {
   /// The way of sight behind a point of a picture of `size` pixels, from (0, 0) at its lower left corner to
   /// (1, 1), to the end of what the camera sees; its direction is about 1 long.
   Ray sight(const SbVec2f& point, const SbVec2s& size) const;
+  /// The ground with its vertices where the last picture had them.
+  SceneQuery asDrawn(const SceneQuery& query) const;
 
  private:
   SoSeparator* root_;  // referenced

@@ -345,7 +345,7 @@ std::optional<GroundPoint> TerrainWidget::pick(const QPoint& point) const {
   if (!private_->engine) return std::nullopt;
   const Ray sight = private_->stage.sight(place, size);
   RayHit hit;
-  private_->engine->sceneQuery()->firstHits({&sight, 1}, {&hit, 1});
+  private_->stage.asDrawn(*private_->engine->sceneQuery()).firstHits({&sight, 1}, {&hit, 1});
   if (hit.end != RayEnd::ground) return std::nullopt;
   const Result<Position> position = sight.from.movedBy(
       hit.way * sight.direction[0], hit.way * sight.direction[1], private_->engine->world().pitch());

@@ -1,6 +1,6 @@
 #include "stream/Cut.h"
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <utility>
@@ -11,6 +11,8 @@ void Cut::clear(int rootLevel) {
   rootLevel_ = rootLevel;
   nodes_.clear();
   order_.clear();
+  sorting_ = Sorting::counting;
+  next_ = 0;
   leaves_ = 0;
   roots_.clear();
 }
@@ -40,28 +42,64 @@ void Cut::divide(Index leaf) {
 
 // By the bits of the urgency, which are ordered like positive floats themselves, eleven at a time. Keeps what
 // is equal in its order, so parents before children.
-void Cut::sortPass(int pass) {
-  constexpr unsigned kBits = 11;
-  constexpr std::uint32_t kDigits = 1U << kBits;
-  if (pass == 0) {
+bool Cut::sortSome(std::size_t most) {
+  if (next_ == 0 && sorting_ == Sorting::counting) {
     entries_.resize(nodes_.size());
     sorted_.resize(nodes_.size());
-    for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      assert(nodes_[k].urgency >= 0.0F);
-      entries_[k] = {~std::bit_cast<std::uint32_t>(nodes_[k].urgency), static_cast<Index>(k)};
-    }
+    order_.resize(nodes_.size());
+    for (auto& starts : starts_) starts.fill(0);
   }
-  std::array<std::uint32_t, kDigits> starts{};
-  const unsigned shift = kBits * static_cast<unsigned>(pass);
-  const auto digit = [shift](const Entry& entry) { return (entry.key >> shift) & (kDigits - 1); };
-  for (const Entry& entry : entries_) ++starts[digit(entry)];
-  std::uint32_t sum = 0;
-  for (std::uint32_t& start : starts) sum += std::exchange(start, sum);
-  for (const Entry& entry : entries_) sorted_[starts[digit(entry)]++] = entry;
-  entries_.swap(sorted_);
-  if (pass + 1 < kPasses) return;
-  order_.resize(nodes_.size());
-  for (std::size_t k = 0; k < order_.size(); ++k) {
+  const std::size_t from = std::exchange(next_, std::min(next_ + most, nodes_.size()));
+  switch (sorting_) {
+    case Sorting::counting:
+      count(from, next_);
+      break;
+    case Sorting::placing:
+      place(from, next_);
+      break;
+    default:
+      scatter(from, next_);
+  }
+  if (next_ < nodes_.size()) return false;
+  next_ = 0;
+  if (sorting_ == Sorting::placing) {
+    sorting_ = Sorting::counting;
+    return true;
+  }
+  if (sorting_ == Sorting::counting) {
+    endCounting();
+  } else {
+    entries_.swap(sorted_);
+  }
+  sorting_ = static_cast<Sorting>(static_cast<int>(sorting_) + 1);
+  return false;
+}
+
+void Cut::count(std::size_t from, std::size_t to) {
+  for (std::size_t k = from; k < to; ++k) {
+    assert(nodes_[k].urgency >= 0.0F);
+    const std::uint32_t key = ~std::bit_cast<std::uint32_t>(nodes_[k].urgency);
+    entries_[k] = {key, static_cast<Index>(k)};
+    for (std::size_t pass = 0; pass < kPasses; ++pass) ++starts_[pass][digit(key, pass)];
+  }
+}
+
+void Cut::endCounting() {
+  for (auto& starts : starts_) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t& start : starts) sum += std::exchange(start, sum);
+  }
+}
+
+void Cut::scatter(std::size_t from, std::size_t to) {
+  const auto pass = static_cast<std::size_t>(sorting_) - static_cast<std::size_t>(Sorting::low);
+  for (std::size_t k = from; k < to; ++k) {
+    sorted_[starts_[pass][digit(entries_[k].key, pass)]++] = entries_[k];
+  }
+}
+
+void Cut::place(std::size_t from, std::size_t to) {
+  for (std::size_t k = from; k < to; ++k) {
     order_[k] = entries_[k].index;
     (*this)[order_[k]].place = static_cast<Index>(k);
   }
@@ -85,7 +123,7 @@ Cut::Index Cut::find(const NodeKey& key) const {
 
 std::size_t Cut::bytes() const noexcept {
   return nodes_.capacity() * sizeof(Node) + roots_.bytes() + order_.capacity() * sizeof(Index) +
-         (entries_.capacity() + sorted_.capacity()) * sizeof(Entry);
+         (entries_.capacity() + sorted_.capacity()) * sizeof(Entry) + sizeof(starts_);
 }
 
 }  // namespace teren

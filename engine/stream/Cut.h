@@ -1,6 +1,7 @@
 // A cut through the quadtree of nodes, and all that is above it: what a view wants to be drawn and held.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -38,10 +39,10 @@ class Cut {
   /// Gives a leaf four children.
   void divide(Index leaf);
 
-  /// Puts the nodes into byUrgency(), in kPasses passes; after the last every node comes after the one above
-  /// it if it is no more urgent.
-  void sortPass(int pass);
-  static constexpr int kPasses = 3;
+  /// Goes on putting the nodes into byUrgency(), some 4 ns each five times over, `most` of them at once; true
+  /// once that is done: then every node comes after the one above it if it is no more urgent. None may be
+  /// added meanwhile.
+  bool sortSome(std::size_t most);
   /// The most urgent first; of equally urgent ones, first the one that was added first.
   std::span<const Index> byUrgency() const noexcept { return order_; }
 
@@ -64,12 +65,26 @@ class Cut {
     std::uint32_t key;  // ascending where urgencies descend
     Index index;
   };
+  enum class Sorting { counting, low, middle, high, placing };
+  static constexpr unsigned kBits = 11;  // of the key, sorted by at a time
+  static constexpr std::size_t kDigits = std::size_t{1} << kBits, kPasses = 3;
+  static std::size_t digit(std::uint32_t key, std::size_t pass) noexcept {
+    return (key >> (kBits * pass)) & (kDigits - 1);
+  }
+  void count(std::size_t from, std::size_t to);
+  void endCounting();
+  void scatter(std::size_t from, std::size_t to);
+  void place(std::size_t from, std::size_t to);
+
   int rootLevel_ = 0;
   std::vector<Node> nodes_;
   std::size_t leaves_ = 0;
   NodeTable roots_;
   std::vector<Entry> entries_, sorted_;
   std::vector<Index> order_;
+  Sorting sorting_ = Sorting::counting;
+  std::size_t next_ = 0;
+  std::array<std::array<std::uint32_t, kDigits>, kPasses> starts_{};  // of each digit, by pass
 };
 
 }  // namespace teren

@@ -13,6 +13,7 @@
 #include "teren/ProcessorTime.h"
 
 #include "stream/ObjectSet.h"
+#include "stream/SeenVertices.h"
 #include "stream/Streamer.h"
 #include "world/NodeErrors.h"
 
@@ -111,11 +112,13 @@ struct Engine::State final : Ground {
   std::shared_ptr<const Scene> scene;
   mutable std::shared_ptr<const SceneQuery> query;  // of `scene` once somebody has asked
   mutable int queryLevels = 0;                      // whose errors it tells were measured
+  DetailEye eye;                                    // the active object, as detail was last chosen for it
   std::chrono::nanoseconds lastUpdate{0};
-  /// Snapshots that went with the last publishing: letting go of one costs as much as making it, so that is
-  /// done when the next budget begins.
+  /// Snapshots that went with the last publishing. Letting go of them frees what only they had, so where no
+  /// time is left that is done when the next budget begins.
   std::vector<std::shared_ptr<const void>> retired;
   std::chrono::nanoseconds publishing{0};  // what it has taken lately, at most: kept free of the budget
+  std::chrono::nanoseconds lettingGo{0};   // likewise: done where so much is left of it
   bool measuring = false;
 
   // Ground
@@ -124,10 +127,17 @@ struct Engine::State final : Ground {
   std::optional<double> drawnHeight(const Position& position) const;
   std::shared_ptr<const SceneQuery> sceneQuery() const;
 
-  void choose() { streamer.choose(objects.motions(), objects.active()); }
+  void choose();
   Morph morph() const;
   void publish();
+  void letGo();
 };
+
+void Engine::State::choose() {
+  const std::span<const Motion> motions = objects.motions();
+  if (!motions.empty()) eye = {motions[objects.active()].position, motions[objects.active()].height};
+  streamer.choose(motions, objects.active());
+}
 
 std::shared_ptr<const SceneQuery> Engine::State::sceneQuery() const {
   if (query->scene() != scene || queryLevels != world->nodeErrors().nextToCalibrate()) {
@@ -142,10 +152,13 @@ std::shared_ptr<const SceneQuery> Engine::State::sceneQuery() const {
   return query;
 }
 
+/// Of the scene, too: whenever somebody may ask, all that is drawn has been published.
 std::optional<double> Engine::State::drawnHeight(const Position& position) const {
-  DrawnPoint point;
-  sceneQuery()->points({&position, 1}, {&point, 1});
-  return point.there ? std::optional(point.height) : std::nullopt;
+  if (!position.valid()) return std::nullopt;
+  const Morph& morph = scene->morph();
+  if (!SeenVertices::moves(eye, morph)) return streamer.nodes().drawnHeight(position);
+  const SeenVertices seen(eye, morph, {0, 0}, world->intervals(), world->spacing(0));
+  return streamer.nodes().drawnHeight(position, &seen);
 }
 
 std::optional<double> Engine::State::height(const Position& position) const {
@@ -169,18 +182,25 @@ Morph Engine::State::morph() const {
 }
 
 void Engine::State::publish() {
+  if (streamer.nodes().isExchanging()) return;  // half of it
   const Morph next = morph();
   if (streamer.nodes().serial() == scene->serial() && next == scene->morph()) return;
   const std::chrono::nanoseconds start = threadProcessorTime();
   retired.push_back(scene);
-  if (query->scene() != scene) {  // nobody asks now: it is not to keep what is drawn no more
+  if (!query->scene()->meshes().empty()) {  // it is not to keep what is drawn no more
     retired.push_back(query);
-    query = std::make_shared<const SceneQuery>(
-        std::make_shared<const Scene>(0, world->spacing(0), std::vector<std::shared_ptr<const Mesh>>{}),
-        world->intervals());
+    query = std::make_shared<const SceneQuery>(query->withoutScene());
   }
-  scene = streamer.nodes().snapshot(next);
+  scene = streamer.snapshot(next);
   publishing = std::max(threadProcessorTime() - start, publishing - publishing / 64);
+}
+
+void Engine::State::letGo() {
+  if (retired.empty() && !streamer.hasOldEdits()) return;
+  const std::chrono::nanoseconds start = threadProcessorTime();
+  retired.clear();
+  streamer.letGoOfOldSnapshots();
+  lettingGo = std::max(threadProcessorTime() - start, lettingGo - lettingGo / 64);
 }
 
 Engine::Engine(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -224,14 +244,27 @@ Result<void> Engine::setView(std::size_t object, const std::optional<DetailSetti
     if (Result<void> checked = check(*detail); !checked) return checked;
     if (Result<void> checked = check(state.options, *state.world, views); !checked) return checked;
   }
-  const auto isThere = [](const std::optional<DetailSettings>& view) { return view.has_value(); };
-  const auto count = 1 + static_cast<std::size_t>(std::count_if(views.begin(), views.end(), isThere));
+  std::size_t count = 1;  // the active object's, which waits meanwhile where it has one of its own
+  for (std::size_t index = 0; index < views.size(); ++index) {
+    if (index != state.objects.active() && views[index]) ++count;
+  }
   if (count > kMostViews) {
     return outside("the number of views", count, "at most " + std::to_string(kMostViews));
   }
   state.streamer.setViews(views);
   state.views = std::move(views);
   return {};
+}
+Morph Engine::morph(std::size_t object) const noexcept {
+  const State& state = *state_;
+  const Morph& own = state.scene->morph();
+  if (object == state.objects.active() || object >= state.views.size() || !state.views[object]) return own;
+  const DetailSettings& view = *state.views[object];
+  const double relaxed = state.streamer.pixelError() / state.options.view.detail->pixelError;
+  return own.withTolerance(relaxed * view.pixelError / lensPixels(view.lines, view.fieldOfView));
+}
+void Engine::setEdits(std::shared_ptr<const GroundEdits> edits, std::span<const SampleBox> changed) {
+  state_->streamer.setEdits(std::move(edits), changed);
 }
 void Engine::setRendererBytes(std::size_t bytes) noexcept {
   state_->streamer.setRendererBytes(bytes);
@@ -273,13 +306,16 @@ void Engine::update(double dt, std::chrono::nanoseconds budget) {
   const Slice::Clock::time_point start = Slice::Clock::now();
   State& state = *state_;
   const bool measured = state.streamer.isMeasuring();
-  state.retired.clear();
+  state.letGo();
   state.objects.advance(dt, state, StoredGround(state.streamer.nodes()));
   state.choose();
+  const Slice::Clock::time_point end = deadlineAfter(start, budget);
   state.streamer.work(deadlineAfter(start, budget - std::min(state.publishing, budget / 2)));
   state.publish();
-  state.measuring =
-      measured || state.streamer.isMeasuring();  // what was found last counts in the next choice
+  if (Slice::Clock::now() + state.lettingGo < end) state.letGo();
+  // What was found last counts in the next choice, and what was replaced last is still to be let go of.
+  state.measuring = measured || state.streamer.isMeasuring() || !state.retired.empty() ||
+                    state.streamer.nodes().hasToFree();
   state.lastUpdate = Slice::Clock::now() - start;
 }
 
@@ -292,11 +328,11 @@ void Engine::settle(const std::function<bool(std::size_t, std::size_t)>& progres
     do {
       state.choose();
       streamer.work(report);
+      state.publish();
+      state.letGo();  // there may be no room before
       settled = streamer.isSettled();
       if (!settled) streamer.wait(kBetweenReports);
     } while (!settled && Slice::Clock::now() < report);
-    state.publish();
-    state.retired.clear();
     if (progress && !progress(streamer.wanted() - streamer.missing(), streamer.wanted())) return;
   }
 }

@@ -13,6 +13,18 @@ JoinTask::JoinTask(NodeStore& nodes, DrawnChange change) : change_(std::move(cha
   }
 }
 
+void JoinTask::add(PiecePlan plan, std::unique_ptr<PieceTask> task) {
+  tasks_.push_back(std::move(task));
+  pieces_.push_back({std::move(plan), nullptr});
+}
+
+std::optional<BuiltPiece> JoinTask::takePiece() {
+  if (pieces_.empty()) return std::nullopt;
+  std::optional<BuiltPiece> piece(std::move(pieces_.back()));
+  pieces_.pop_back();
+  return piece;
+}
+
 bool JoinTask::step(const Slice& slice) {
   while (next_ < tasks_.size()) {
     if (!tasks_[next_]->step(slice)) return false;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,11 +21,16 @@ class JoinTask final : public SlicedTask {
  public:
   /// See NodeStore::plan.
   JoinTask(NodeStore& nodes, DrawnChange change);
+  /// Builds what is added, for no change of the drawn set.
+  JoinTask() = default;
+  void add(PiecePlan plan, std::unique_ptr<PieceTask> task);
   bool step(const Slice& slice) override;
 
   const DrawnChange& change() const noexcept { return change_; }
   /// Complete once step has returned true.
   std::span<const BuiltPiece> pieces() const noexcept { return pieces_; }
+  /// Once complete, the last of those that have not been taken.
+  std::optional<BuiltPiece> takePiece();
   /// [bytes] of the pieces, at most.
   std::size_t bytes() const noexcept { return bytes_; }
 

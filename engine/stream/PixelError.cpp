@@ -31,14 +31,14 @@ struct Box {
 /// Where a mesh's columns and rows lie as seen from the eye; exact to the rounding of small numbers, wherever
 /// both are.
 struct MeshFrame {
-  MeshFrame(const World& world, const Mesh& theMesh, const Eye& theEye)
-      : mesh(theMesh), height(theEye.height), spacing(world.spacing(theMesh.level)) {
+  MeshFrame(const World& world, const Mesh& theMesh, const Position& eye, double eyeHeight)
+      : mesh(theMesh), height(eyeHeight), spacing(world.spacing(theMesh.level)) {
     const auto n = static_cast<std::int64_t>(world.intervals());
     const auto metres = [&](std::int64_t origin, std::int64_t patch, double share) {
       return (static_cast<double>(origin - patch * n) - share * static_cast<double>(n)) * world.spacing(0);
     };
-    east = metres(mesh.originColumn, theEye.position.i, theEye.position.u);
-    north = metres(mesh.originRow, theEye.position.j, theEye.position.v);
+    east = metres(mesh.originColumn, eye.i, eye.u);
+    north = metres(mesh.originRow, eye.j, eye.v);
   }
 
   Box whole() const noexcept {
@@ -79,24 +79,42 @@ double nearestOf(const MeshFrame& frame) {
   return std::max(near, kNearestGround);
 }
 
-/// [m / m] The largest error over distance between two distances, of vertices of a level that move. In
-/// between t is the square of a linear function of the distance, so the error over it is convex until they
-/// have arrived, and falls from then on: it is largest at an end or at the arrival.
-double largestOfMoving(const Morph& morph, int level, double own, double next, double near, double far) {
+/// How far a mesh is from the eye that looks, and what that says of how far it is from the eye that vertices
+/// move with: at most `apart` farther, and at most `farthest`. All in metres.
+struct Distances {
+  double near = 0.0, far = 0.0;
+  double apart = 0.0, farthest = 0.0;
+};
+
+/// [m / m] The largest error over distance of vertices of a level that move. t is the square of a linear
+/// function of the distance, so the error over it is convex until they have arrived, or can be no farther
+/// from the eye they move with, and falls from then on: it is largest at an end or there.
+double largestOfMoving(const Morph& morph, int level, double own, double next, const Distances& distances) {
+  const auto& [near, far, apart, farthest] = distances;
   const auto at = [&](double distance) {
-    const auto t = static_cast<double>(morph.share(level, static_cast<float>(distance)));
+    const double moved = std::min(distance + distances.apart, distances.farthest);
+    const auto t = static_cast<double>(morph.share(level, static_cast<float>(moved)));
     return (own + t * (next - own)) / distance;
   };
   const Morph::Range& range = morph.ranges()[static_cast<std::size_t>(level)];
   const double arrival = (static_cast<double>(range.error) + 1.0 / static_cast<double>(range.perMetre)) /
                          static_cast<double>(morph.tolerance());
-  return std::max({at(near), at(far), at(std::clamp(arrival, near, far))});
+  return std::max({at(near), at(far), at(std::clamp(arrival - apart, near, far)),
+                   at(std::clamp(farthest - apart, near, far))});
+}
+
+PixelError summary(std::vector<double> pixels) {
+  if (pixels.empty()) return {};
+  const auto rank = pixels.begin() + static_cast<std::ptrdiff_t>((pixels.size() * 99 + 99) / 100 - 1);
+  std::nth_element(pixels.begin(), rank, pixels.end());
+  return {*rank, *std::max_element(rank, pixels.end())};
 }
 
 }  // namespace
 
 double drawnError(const World& world, const Mesh& mesh) {
-  return world.nodeErrors().estimate(mesh.nodeLevel, static_cast<double>(mesh.bend));
+  return world.nodeErrors().estimate(mesh.nodeLevel, static_cast<double>(mesh.bend)) +
+         static_cast<double>(mesh.moved);
 }
 
 double lensPixels(double rows, double fieldOfView) noexcept {
@@ -104,26 +122,39 @@ double lensPixels(double rows, double fieldOfView) noexcept {
 }
 
 double pixelError(const World& world, const Mesh& mesh, const Eye& eye, const Morph& morph) {
+  return pixelError(world, mesh, eye, morph, {eye.position, eye.height});
+}
+
+double pixelError(const World& world, const Mesh& mesh, const Eye& eye, const Morph& morph,
+                  const DetailEye& movedWith) {
   const double own = drawnError(world, mesh);
   const int level = mesh.nodeLevel;
   const bool moves = morph.tolerance() > 0.0F && level < world.topLevel() && level < SurfaceVertex::kFixed;
   if (!moves && own == 0.0) return 0.0;
-  const MeshFrame frame(world, mesh, eye);
+  const MeshFrame frame(world, mesh, eye.position, eye.height);
   const double near = nearestOf(frame);
   if (!moves) return own / near * eye.lensPixels;
   const double next = std::max(own, world.nodeErrors().estimate(level + 1));
-  const double far = std::max(near, frame.whole().farthest());
-  return largestOfMoving(morph, level, own, next, near, far) * eye.lensPixels;
+  Distances distances{near, std::max(near, frame.whole().farthest())};
+  const Offset way = offset(eye.position, movedWith.position, world.pitch());
+  const double up = movedWith.height - eye.height;
+  distances.apart = std::sqrt(way.east * way.east + way.north * way.north + up * up);
+  distances.farthest = MeshFrame(world, mesh, movedWith.position, movedWith.height).whole().farthest();
+  distances.farthest = std::max(distances.farthest, kNearestGround);
+  return largestOfMoving(morph, level, own, next, distances) * eye.lensPixels;
 }
 
 PixelError pixelError(const World& world, const Scene& scene, const Eye& eye) {
+  return pixelError(world, scene, eye, {eye.position, eye.height});
+}
+
+PixelError pixelError(const World& world, const Scene& scene, const Eye& eye, const DetailEye& movedWith) {
   std::vector<double> pixels;
   pixels.reserve(scene.meshes().size());
-  for (const auto& mesh : scene.meshes()) pixels.push_back(pixelError(world, *mesh, eye, scene.morph()));
-  if (pixels.empty()) return {};
-  const auto rank = pixels.begin() + static_cast<std::ptrdiff_t>((pixels.size() * 99 + 99) / 100 - 1);
-  std::nth_element(pixels.begin(), rank, pixels.end());
-  return {*rank, *std::max_element(rank, pixels.end())};
+  for (const auto& mesh : scene.meshes()) {
+    pixels.push_back(pixelError(world, *mesh, eye, scene.morph(), movedWith));
+  }
+  return summary(std::move(pixels));
 }
 
 }  // namespace teren

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 namespace teren {
@@ -28,6 +29,18 @@ void widen(HeightSpan& span, float height) {
 void widen(HeightSpan& span, const HeightSpan& other) {
   span.low = std::min(span.low, other.low);
   span.high = std::max(span.high, other.high);
+}
+/// By all that what is moved between two heights may come to.
+void widenBetween(HeightSpan& span, float low, float high) {
+  const float beyond = kMorphRounding * std::max(std::fabs(low), std::fabs(high));
+  widen(span, low - beyond);
+  widen(span, high + beyond);
+}
+/// Wherever an eye sees the vertex (Morph.h).
+void widen(HeightSpan& span, const SurfaceVertex& vertex) {
+  if (vertex.level() == SurfaceVertex::kFixed) return widen(span, vertex.height);
+  widenBetween(span, std::min(vertex.height, vertex.coarserHeight),
+               std::max(vertex.height, vertex.coarserHeight));
 }
 
 /// The index list of a rectangle of squares, each split from south-west to north-east, row by row.
@@ -133,6 +146,7 @@ void SceneIndex::addMeshes(const Scene& scene, const SceneIndex* before) {
       takeOver(*before, next, indexed);
     } else {
       measure(*mesh, indexed);
+      ++measured_;
     }
     indexed.west = mesh->originColumn - cornerColumn_;
     indexed.south = mesh->originRow - cornerRow_;
@@ -144,7 +158,8 @@ void SceneIndex::addMeshes(const Scene& scene, const SceneIndex* before) {
 void SceneIndex::measure(const Mesh& mesh, IndexedMesh& indexed) {
   indexed.vertices = mesh.vertices.data();
   indexed.indices = mesh.indices->data();
-  indexed.heights = {mesh.minHeight, mesh.maxHeight};
+  indexed.heights = kNoHeights;
+  widenBetween(indexed.heights, mesh.minHeight, mesh.maxHeight);
   indexed.columns = mesh.columns;
   indexed.rows = mesh.rows;
   indexed.level = static_cast<std::int8_t>(mesh.level);
@@ -198,7 +213,7 @@ void SceneIndex::measureGrid(const Mesh& mesh, const IndexedMesh& indexed) {
       for (int row = y; row <= std::min(y + kSide, mesh.rows); ++row) {
         const SurfaceVertex* const line = mesh.vertices.data() + static_cast<std::size_t>(row) * across;
         for (int column = x; column <= std::min(x + kSide, mesh.columns); ++column) {
-          widen(span, line[column].height);
+          widen(span, line[column]);
         }
       }
       blockHeights_.push_back(span);
@@ -249,7 +264,7 @@ void SceneIndex::measureBag(const Mesh& mesh, IndexedMesh& indexed) {
     forEachBlock(indexed, corners, [&](std::size_t block) {
       ++ends[block + 1];
       for (const SurfaceVertex* corner : corners) {
-        widen(blockHeights_[indexed.firstBlock + block], corner->height);
+        widen(blockHeights_[indexed.firstBlock + block], *corner);
       }
     });
   });

@@ -12,7 +12,7 @@
 
 namespace teren {
 
-/// [m] What lies between two heights, both included.
+/// [m] What lies between two heights, both included: of vertices, wherever an eye sees them (Morph.h).
 struct HeightSpan {
   float low = 0.0F, high = 0.0F;
 };
@@ -34,6 +34,13 @@ struct alignas(64) IndexedMesh {
 
   std::int64_t east() const noexcept { return west + (std::int64_t{columns} << level); }
   std::int64_t north() const noexcept { return south + (std::int64_t{rows} << level); }
+  /// Where a vertex is.
+  std::int64_t columnOf(const SurfaceVertex& vertex) const noexcept {
+    return west + (std::int64_t{vertex.column} << level);
+  }
+  std::int64_t rowOf(const SurfaceVertex& vertex) const noexcept {
+    return south + (std::int64_t{vertex.row} << level);
+  }
   /// Whether a square, by its column and row, is one of the mesh's.
   bool holds(std::int64_t column, std::int64_t row) const noexcept {
     return 0 <= column && column < columns && 0 <= row && row < rows;
@@ -114,6 +121,7 @@ class SceneIndex {
   }
 
   std::size_t bytes() const noexcept;
+  std::size_t measured() const noexcept { return measured_; }  ///< meshes that `before` lacked
 
  private:
   struct Square;
@@ -142,6 +150,7 @@ class SceneIndex {
   std::vector<double> areas_;         // of all triangles of each mesh, in level-0 squares
   std::vector<HeightSpan> blockHeights_;
   std::vector<std::uint32_t> bucketStarts_, bucketTriangles_;
+  std::size_t measured_ = 0;
   std::vector<std::shared_ptr<const TriangleIndices>> grids_;  // index lists that are regular
 };
 

@@ -8,6 +8,7 @@
 #include "height/Surface.h"
 #include "stream/SceneIndex.h"
 #include "stream/SceneRay.h"
+#include "stream/SeenVertices.h"
 
 namespace teren {
 
@@ -47,34 +48,43 @@ const std::uint32_t* triangleAt(const SceneIndex& index, const IndexedMesh& mesh
   return nullptr;
 }
 
-void answerSquare(const Found& found, double spacing, DrawnPoint& answer) {
+template <class Vertices>
+TrianglePoint inSquare(const Found& found, const Vertices& vertices) {
   const SurfaceVertex* const south = found.southWest;
   const SurfaceVertex* const north = south + found.mesh->columns + 1;
-  const SquareHeights heights{static_cast<double>(south[0].height), static_cast<double>(south[1].height),
-                              static_cast<double>(north[0].height), static_cast<double>(north[1].height)};
-  const TrianglePoint point = sampleTriangle(heights, found.x, found.y);
-  answer.height = point.height;
-  answer.normal = faceNormal(point, spacing * static_cast<double>(std::int64_t{1} << found.mesh->level));
+  const auto height = [&](const SurfaceVertex& vertex) {
+    return static_cast<double>(
+        vertices.height(found.mesh->columnOf(vertex), found.mesh->rowOf(vertex), vertex));
+  };
+  const SquareHeights heights{height(south[0]), height(south[1]), height(north[0]), height(north[1])};
+  return sampleTriangle(heights, found.x, found.y);
 }
 
-void answerTriangle(const Found& found, double spacing, DrawnPoint& answer) {
+template <class Vertices>
+TrianglePoint inTriangle(const Found& found, const Vertices& vertices) {
   const auto corner = [&](std::size_t k) -> const SurfaceVertex& {
     return found.mesh->vertices[found.corners[k]];
   };
-  const SurfaceVertex& a = corner(0);
-  const auto rise = [&](std::size_t k) {
-    return static_cast<double>(corner(k).height) - static_cast<double>(a.height);
+  const auto height = [&](std::size_t k) {
+    const SurfaceVertex& vertex = corner(k);
+    return static_cast<double>(
+        vertices.height(found.mesh->columnOf(vertex), found.mesh->rowOf(vertex), vertex));
   };
-  const double bx = corner(1).column - a.column, by = corner(1).row - a.row, bz = rise(1);
-  const double cx = corner(2).column - a.column, cy = corner(2).row - a.row, cz = rise(2);
+  const SurfaceVertex& a = corner(0);
+  const double az = height(0);
+  const double bx = corner(1).column - a.column, by = corner(1).row - a.row, bz = height(1) - az;
+  const double cx = corner(2).column - a.column, cy = corner(2).row - a.row, cz = height(2) - az;
   const double area = cross(bx, by, cx, cy);  // > 0: anticlockwise
   TrianglePoint point;
   point.slopeX = (bz * cy - cz * by) / area;
   point.slopeY = (cz * bx - bz * cx) / area;
-  point.height = static_cast<double>(a.height) +
-                 ((found.x - a.column) * point.slopeX + (found.y - a.row) * point.slopeY);
-  answer.height = point.height;
-  answer.normal = faceNormal(point, spacing * static_cast<double>(std::int64_t{1} << found.mesh->level));
+  point.height = az + ((found.x - a.column) * point.slopeX + (found.y - a.row) * point.slopeY);
+  return point;
+}
+
+template <class Vertices>
+TrianglePoint inFound(const Found& found, const Vertices& vertices) {
+  return found.mesh->regular ? inSquare(found, vertices) : inTriangle(found, vertices);
 }
 
 }  // namespace
@@ -85,14 +95,34 @@ class SceneQuery::State {
         const State* before)
       : scene(std::move(theScene)),
         intervals(theIntervals),
-        index(*scene, theIntervals, errors, before != nullptr ? &before->index : nullptr) {}
+        known(std::make_shared<const SceneIndex>(*scene, theIntervals, errors,
+                                                 before != nullptr ? before->known.get() : nullptr)),
+        index(*known) {}
+  /// What `of` knows, without its scene.
+  explicit State(const State& of, std::shared_ptr<const Scene> nothing)
+      : scene(std::move(nothing)), intervals(of.intervals), known(of.known), index(noIndex()) {}
 
   Found find(const Position& place) const;
-  void answer(std::span<const Position> places, std::span<DrawnPoint> answers) const;
+  SeenVertices seenFrom(const DetailEye& eye, const Morph& morph) const noexcept {
+    return {eye, morph, {index.cornerColumn(), index.cornerRow()}, intervals, scene->spacing()};
+  }
+  template <class Vertices>
+  void answer(std::span<const Position> places, std::span<DrawnPoint> answers,
+              const Vertices& vertices) const;
+  template <class Vertices>
+  void answerAll(std::span<const Position> places, std::span<DrawnPoint> answers,
+                 const Vertices& vertices) const;
 
   std::shared_ptr<const Scene> scene;
   int intervals;
-  SceneIndex index;
+  std::shared_ptr<const SceneIndex> known;  // of meshes that may be gone: ids tell
+  const SceneIndex& index;                  // of those of the scene
+
+ private:
+  static const SceneIndex& noIndex() {
+    static const SceneIndex nothing(Scene{}, 1, {}, nullptr);
+    return nothing;
+  }
 };
 
 Found SceneQuery::State::find(const Position& place) const {
@@ -132,7 +162,9 @@ Found SceneQuery::State::find(const Position& place) const {
   return found;
 }
 
-void SceneQuery::State::answer(std::span<const Position> places, std::span<DrawnPoint> answers) const {
+template <class Vertices>
+void SceneQuery::State::answer(std::span<const Position> places, std::span<DrawnPoint> answers,
+                               const Vertices& vertices) const {
   std::array<Found, kBatch> found;
   for (std::size_t k = 0; k < places.size(); ++k) found[k] = find(places[k]);
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -140,47 +172,75 @@ void SceneQuery::State::answer(std::span<const Position> places, std::span<Drawn
     answer.there = found[k].mesh != nullptr;
     if (!answer.there) continue;
     answer.level = found[k].mesh->level;
+    const TrianglePoint point = inFound(found[k], vertices);
+    answer.height = point.height;
+    answer.normal =
+        faceNormal(point, scene->spacing() * static_cast<double>(std::int64_t{1} << answer.level));
     answer.error = static_cast<double>(found[k].mesh->error);
-    if (found[k].mesh->regular) {
-      answerSquare(found[k], scene->spacing(), answer);
-    } else {
-      answerTriangle(found[k], scene->spacing(), answer);
+    if constexpr (Vertices::kMoves) {
+      answer.error += std::fabs(point.height - inFound(found[k], LyingVertices{}).height);
     }
+  }
+}
+
+template <class Vertices>
+void SceneQuery::State::answerAll(std::span<const Position> places, std::span<DrawnPoint> answers,
+                                  const Vertices& vertices) const {
+  for (std::size_t first = 0; first < places.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, places.size() - first);
+    answer(places.subspan(first, count), answers.subspan(first, count), vertices);
   }
 }
 
 SceneQuery::SceneQuery(std::shared_ptr<const Scene> scene, int intervals, std::span<const float> errors,
                        const SceneQuery* before)
-    : state_(std::make_unique<const State>(std::move(scene), intervals, errors,
+    : state_(std::make_shared<const State>(std::move(scene), intervals, errors,
                                            before != nullptr ? before->state_.get() : nullptr)) {}
-SceneQuery::~SceneQuery() = default;
-SceneQuery::SceneQuery(SceneQuery&&) noexcept = default;
-SceneQuery& SceneQuery::operator=(SceneQuery&&) noexcept = default;
+
+SceneQuery SceneQuery::seenFrom(const DetailEye& eye, const Morph& morph) const {
+  SceneQuery seen(state_);
+  if (SeenVertices::moves(eye, morph)) {
+    seen.eye_ = eye;
+    seen.morph_ = morph;
+  }
+  return seen;
+}
+
+SceneQuery SceneQuery::withoutScene() const {
+  return SceneQuery(std::make_shared<const State>(*state_, std::make_shared<const Scene>()));
+}
+
+std::size_t SceneQuery::newMeshes() const noexcept {
+  return state_->index.measured();
+}
 
 const std::shared_ptr<const Scene>& SceneQuery::scene() const noexcept {
   return state_->scene;
 }
 
 std::size_t SceneQuery::bytes() const noexcept {
-  return sizeof(State) + state_->index.bytes();
+  return sizeof(State) + state_->known->bytes();
 }
 
 void SceneQuery::points(std::span<const Position> places, std::span<DrawnPoint> answers) const {
   assert(places.size() == answers.size());
-  for (std::size_t first = 0; first < places.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, places.size() - first);
-    state_->answer(places.subspan(first, count), answers.subspan(first, count));
-  }
+  const State& state = *state_;
+  if (!eye_) return state.answerAll(places, answers, LyingVertices{});
+  state.answerAll(places, answers, state.seenFrom(*eye_, morph_));
 }
 
 void SceneQuery::firstHits(std::span<const Ray> rays, std::span<RayHit> hits) const {
   assert(rays.size() == hits.size());
+  std::optional<SeenVertices> seen;
+  if (eye_) seen.emplace(state_->seenFrom(*eye_, morph_));
   for (std::size_t k = 0; k < rays.size(); ++k) {
     const Ray& ray = rays[k];
     hits[k] = {};
     if (!SceneRay::isRay(ray)) continue;
     const bool covered = state_->find(ray.from).mesh != nullptr;
-    hits[k] = SceneRay(state_->index, state_->scene->spacing(), state_->intervals, ray, covered).firstHit();
+    hits[k] = SceneRay(state_->index, state_->scene->spacing(), state_->intervals, ray, covered,
+                       seen ? &*seen : nullptr)
+                  .firstHit();
   }
 }
 

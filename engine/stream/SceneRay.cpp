@@ -29,8 +29,12 @@ bool SceneRay::isRay(const Ray& ray) noexcept {
 }
 
 SceneRay::SceneRay(const SceneIndex& index, double spacing, int intervals, const Ray& ray,
-                   bool beginsOverGround)
-    : index_(index), spacing_(spacing), height_(ray.height), beginsOverGround_(beginsOverGround) {
+                   bool beginsOverGround, const SeenVertices* seen)
+    : index_(index),
+      seen_(seen),
+      spacing_(spacing),
+      height_(ray.height),
+      beginsOverGround_(beginsOverGround) {
   const double east = ray.from.u * intervals, north = ray.from.v * intervals;
   column_ = ray.from.i * intervals + static_cast<std::int64_t>(std::floor(east)) - index.cornerColumn();
   row_ = ray.from.j * intervals + static_cast<std::int64_t>(std::floor(north)) - index.cornerRow();
@@ -77,7 +81,8 @@ RayHit SceneRay::firstHit() {
   if (!hit_) return hit;
   hit.level = mesh_->level;
   hit.error = static_cast<double>(mesh_->error);
-  const auto& [a, b, c] = triangle_;
+  if (seen_ != nullptr) hit.error += movedAtHit();
+  const Vector &a = triangle_[0].place, &b = triangle_[1].place, &c = triangle_[2].place;
   const Vector ab{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, ac{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
   const Vector normal{cross(ab[1], ab[2], ac[1], ac[2]), cross(ab[2], ab[0], ac[2], ac[0]),
                       cross(ab[0], ab[1], ac[0], ac[1])};
@@ -150,9 +155,10 @@ void SceneRay::overSquares(const IndexedMesh& mesh, int blockColumn, int blockRo
     const SurfaceVertex* const bottom =
         mesh.vertices + std::int64_t{firstRow + row} * (mesh.columns + 1) + firstColumn + column;
     const SurfaceVertex* const top = bottom + mesh.columns + 1;
-    const auto [low, high] = std::minmax({bottom[0].height, bottom[1].height, top[0].height, top[1].height});
+    const auto [low, high] = std::minmax({heightOf(mesh, bottom[0]), heightOf(mesh, bottom[1]),
+                                          heightOf(mesh, top[0]), heightOf(mesh, top[1])});
     if (!meets({low, high}, part)) return true;
-    const Vector southWest = corner(mesh, bottom[0]), northEast = corner(mesh, top[1]);
+    const Corner southWest = corner(mesh, bottom[0]), northEast = corner(mesh, top[1]);
     meet(southWest, corner(mesh, bottom[1]), northEast, mesh);
     meet(southWest, northEast, corner(mesh, top[0]), mesh);
     return !hit_ || part.begin <= time_ + slack_;
@@ -169,10 +175,14 @@ void SceneRay::meetBag(const IndexedMesh& mesh, int blockColumn, int blockRow) {
 
 /// A function of the vertex's place in the world alone, whichever mesh it is read from: that is what makes
 /// sides shared.
-SceneRay::Vector SceneRay::corner(const IndexedMesh& mesh, const SurfaceVertex& vertex) const noexcept {
-  return {x(mesh.west + (std::int64_t{vertex.column} << mesh.level)) * spacing_,
-          y(mesh.south + (std::int64_t{vertex.row} << mesh.level)) * spacing_,
-          static_cast<double>(vertex.height) - height_};
+SceneRay::Corner SceneRay::corner(const IndexedMesh& mesh, const SurfaceVertex& vertex) const noexcept {
+  return {{x(mesh.columnOf(vertex)) * spacing_, y(mesh.rowOf(vertex)) * spacing_,
+           static_cast<double>(heightOf(mesh, vertex)) - height_},
+          &vertex};
+}
+
+float SceneRay::heightOf(const IndexedMesh& mesh, const SurfaceVertex& vertex) const noexcept {
+  return seen_ != nullptr ? seen_->height(mesh.columnOf(vertex), mesh.rowOf(vertex), vertex) : vertex.height;
 }
 
 bool SceneRay::meets(const HeightSpan& heights, const Span& span) const noexcept {
@@ -185,7 +195,8 @@ bool SceneRay::meets(const HeightSpan& heights, const Span& span) const noexcept
 
 // ---- Triangles
 
-void SceneRay::meet(const Vector& a, const Vector& b, const Vector& c, const IndexedMesh& mesh) {
+void SceneRay::meet(const Corner& first, const Corner& second, const Corner& third, const IndexedMesh& mesh) {
+  const Vector &a = first.place, &b = second.place, &c = third.place;
   const auto [kx, ky, kz] = axes_;
   const double ax = a[kx] - shearX_ * a[kz], ay = a[ky] - shearY_ * a[kz];
   const double bx = b[kx] - shearX_ * b[kz], by = b[ky] - shearY_ * b[kz];
@@ -195,7 +206,7 @@ void SceneRay::meet(const Vector& a, const Vector& b, const Vector& c, const Ind
   const double sum = u + v + w;
   double time = (u * a[kz] + v * b[kz] + w * c[kz]) / sum * direction_[kz];
   if (sum == 0.0) {  // the ray runs in the triangle's own plane
-    const Span over = timesOver({a, b, c}, span_);
+    const Span over = timesOver({first, second, third}, span_);
     if (over.empty()) return;
     time = over.begin;
   }
@@ -203,19 +214,33 @@ void SceneRay::meet(const Vector& a, const Vector& b, const Vector& c, const Ind
   hit_ = true;
   time_ = time;
   mesh_ = &mesh;
-  triangle_ = {a, b, c};
+  triangle_ = {first, second, third};
 }
 
 /// When the ray is over or under a triangle.
-Span SceneRay::timesOver(const std::array<Vector, 3>& triangle, Span within) const noexcept {
+Span SceneRay::timesOver(const Triangle& triangle, Span within) const noexcept {
   for (std::size_t k = 0; k < 3 && !within.empty(); ++k) {
-    const Vector &from = triangle[k], &to = triangle[(k + 1) % 3];
+    const Vector &from = triangle[k].place, &to = triangle[(k + 1) % 3].place;
     const double sideX = to[0] - from[0], sideY = to[1] - from[1];
     within =
         spanWithin(cross(sideX, sideY, -from[0], -from[1]), cross(sideX, sideY, direction_[0], direction_[1]),
                    0.0, std::numeric_limits<double>::infinity(), within);
   }
   return within;
+}
+
+/// [m] By how much the triangle that was hit has moved where it was hit.
+double SceneRay::movedAtHit() const noexcept {
+  const double east = direction_[0] * time_, north = direction_[1] * time_;
+  double sum = 0.0, moved = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector &from = triangle_[(k + 1) % 3].place, &to = triangle_[(k + 2) % 3].place;
+    const double weight = cross(from[0] - east, from[1] - north, to[0] - east, to[1] - north);
+    const double lying = static_cast<double>(triangle_[k].vertex->height) - height_;
+    sum += weight;
+    moved += weight * (triangle_[k].place[2] - lying);
+  }
+  return std::fabs(moved / sum);
 }
 
 // ---- How far there is ground below or above the ray
@@ -251,7 +276,7 @@ bool SceneRay::coverMesh(const IndexedMesh& mesh, const Span& span) {
   }
   walkGrid(line_, blocksOf(mesh), reach_, span, [&](int column, int row, const Span&) {
     for (const std::uint32_t triangle : index_.bucket(mesh, column, row)) {
-      std::array<Vector, 3> corners;
+      Triangle corners;
       for (std::size_t k = 0; k < 3; ++k)
         corners[k] = corner(mesh, mesh.vertices[mesh.indices[triangle + k]]);
       extend(timesOver(corners, span));

@@ -8,6 +8,7 @@
 
 #include "stream/GridWalk.h"
 #include "stream/SceneIndex.h"
+#include "stream/SeenVertices.h"
 
 namespace teren {
 
@@ -18,8 +19,10 @@ namespace teren {
 /// numbers for the side that they share, so no ray slips through between them or at a corner.
 class SceneRay {
  public:
-  /// `ray` that isRay(). `beginsOverGround`: whether a triangle is below or above its beginning.
-  SceneRay(const SceneIndex& index, double spacing, int intervals, const Ray& ray, bool beginsOverGround);
+  /// `ray` that isRay(). `beginsOverGround`: whether a triangle is below or above its beginning. `seen`:
+  /// where the vertices are; nullptr: as they lie.
+  SceneRay(const SceneIndex& index, double spacing, int intervals, const Ray& ray, bool beginsOverGround,
+           const SeenVertices* seen);
   RayHit firstHit();
 
   /// Whether the numbers of a ray are in their ranges.
@@ -27,6 +30,11 @@ class SceneRay {
 
  private:
   using Vector = std::array<double, 3>;  // east, north, up of where the ray begins [m]
+  struct Corner {
+    Vector place;
+    const SurfaceVertex* vertex;
+  };
+  using Triangle = std::array<Corner, 3>;
 
   /// Of the tree: from its south-west corner, 2^shift samples a side.
   struct Square {
@@ -46,17 +54,20 @@ class SceneRay {
   void overMesh(const IndexedMesh& mesh, const Span& span);
   void overSquares(const IndexedMesh& mesh, int blockColumn, int blockRow, const Span& span);
   void meetBag(const IndexedMesh& mesh, int blockColumn, int blockRow);
-  void meet(const Vector& a, const Vector& b, const Vector& c, const IndexedMesh& mesh);
-  Span timesOver(const std::array<Vector, 3>& triangle, Span within) const noexcept;
+  void meet(const Corner& first, const Corner& second, const Corner& third, const IndexedMesh& mesh);
+  Span timesOver(const Triangle& triangle, Span within) const noexcept;
+  double movedAtHit() const noexcept;
   bool meets(const HeightSpan& heights, const Span& span) const noexcept;
   bool coverMesh(const IndexedMesh& mesh, const Span& span);
-  Vector corner(const IndexedMesh& mesh, const SurfaceVertex& vertex) const noexcept;
+  Corner corner(const IndexedMesh& mesh, const SurfaceVertex& vertex) const noexcept;
+  float heightOf(const IndexedMesh& mesh, const SurfaceVertex& vertex) const noexcept;
   /// Of a place of the index, in samples from where the ray begins.
   double x(std::int64_t column) const noexcept { return static_cast<double>(column - column_) - beyondX_; }
   double y(std::int64_t row) const noexcept { return static_cast<double>(row - row_) - beyondY_; }
   WalkedGrid blocksOf(const IndexedMesh& mesh) const noexcept;
 
   const SceneIndex& index_;
+  const SeenVertices* seen_;
   double spacing_;
   std::int64_t column_ = 0, row_ = 0;     // where it begins: the sample to its south-west,
   double beyondX_ = 0.0, beyondY_ = 0.0;  // and how far beyond
@@ -74,7 +85,7 @@ class SceneRay {
   bool hit_ = false;
   double time_ = 0.0;
   const IndexedMesh* mesh_ = nullptr;
-  std::array<Vector, 3> triangle_{};
+  Triangle triangle_{};
   bool beginsOverGround_;
   double covered_ = 0.0;  // there is ground all the way up to this time
 };

@@ -13,8 +13,8 @@ namespace teren {
 
 namespace {
 
-constexpr double kNearest = 0.1;         // [m] no eye is nearer to what it sees
-constexpr std::size_t kUnits = 32;       // nodes between two looks at the clock
+constexpr std::size_t kUnits = 32;       // nodes between two looks at the clock ...
+constexpr std::size_t kSorts = 256;      // ... while they are sorted
 constexpr double kBeforeAllElse = 1e18;  // urgency of roots: no error is seen as large
 
 /// How far a coordinate lies from an interval.
@@ -63,22 +63,22 @@ double Selection::shareOfWay(const Eye& eye, const NodeKey& key) const noexcept 
 }
 
 // Within the distance across the ground: what is far below is in sight too.
-double Selection::seenBy(const Eye& eye, const NodeKey& key, double share) const noexcept {
+double Selection::seenBy(const Eye& eye, const NodeKey& key, double share, double rim) const noexcept {
   const double across = squaredAcross(eye, key, share);
   if (across > eye.squaredDistance) return 0.0;
   const double height = eye.viewer.height + share * eye.viewer.up;
   const double up = away(height - ground_.high, height - ground_.low);
-  return ground_.errors[static_cast<std::size_t>(key.level)] * eye.pixels /
-         std::sqrt(std::max(across + up * up, kNearest * kNearest));
+  return eye.pixels / std::max(std::sqrt(across + up * up) - rim, kNearestGround);
 }
 
 double Selection::seen(const NodeKey& key) const {
+  const RoughNode node = roughness(key);
   double most = 0.0;
   for (const Eye& eye : eyes_) {
-    most = std::max(most, seenBy(eye, key, 0.0));
-    if (eye.moves) most = std::max(most, seenBy(eye, key, shareOfWay(eye, key)));
+    most = std::max(most, seenBy(eye, key, 0.0, node.rim));
+    if (eye.moves) most = std::max(most, seenBy(eye, key, shareOfWay(eye, key), node.rim));
   }
-  return most;
+  return most > 0.0 ? node.error * most : 0.0;
 }
 
 float Selection::rootUrgency(const NodeKey& root) const {
@@ -108,6 +108,7 @@ void Selection::begin(std::span<const Viewer> viewers, double tolerance, std::si
   for (std::vector<Cut::Index>& level : split_) level.clear();
   left_ = most / 3;  // a node that is split makes three leaves more
   next_ = 0;
+  row_ = 0;
   stage_ = Stage::rooting;
 }
 
@@ -131,10 +132,7 @@ void Selection::stepUnits() {
     case Stage::refused:
       break;
     case Stage::rooting:
-      if (next_ < eyes_.size()) return findRoots(eyes_[next_++]);
-      next_ = 0;
-      stage_ = Stage::splitting;
-      break;
+      return findSomeRoots();
     case Stage::splitting:
       return splitSome();
     case Stage::balancing:
@@ -142,8 +140,7 @@ void Selection::stepUnits() {
     case Stage::weighing:
       return weighSome();
     case Stage::sorting:
-      chosen().sortPass(static_cast<int>(next_++));
-      if (next_ == Cut::kPasses) stage_ = Stage::chosen;
+      if (chosen().sortSome(kSorts)) stage_ = Stage::chosen;
   }
 }
 
@@ -153,22 +150,32 @@ void Selection::keep() {
   forgets_ = false;
 }
 
-void Selection::findRoots(const Eye& eye) {
-  const NodeKey centre = nodeAt(eye.viewer.position, rootLevel_);
+/// A row of one viewer's.
+void Selection::findSomeRoots() {
+  if (next_ == eyes_.size()) {
+    next_ = 0;
+    stage_ = Stage::splitting;
+    return;
+  }
+  const Eye& eye = eyes_[next_];
   const auto most =
       static_cast<std::int64_t>(std::ceil(kRootsStay * eye.viewer.detail.distance / side(rootLevel_)));
-  for (std::int64_t dj = -most; dj <= most; ++dj) {
-    for (std::int64_t di = -most; di <= most; ++di) {
-      const NodeKey key{rootLevel_, centre.i + di, centre.j + dj};
-      if (!insideWorld(key)) continue;
-      const double across = squaredAcross(eye, key, 0.0);
-      if (across > kRootsStay * kRootsStay * eye.squaredDistance) continue;
-      const Cut::Index before = kept().rootLevel() == rootLevel_ ? kept().find(key) : Cut::kNone;
-      if ((across > eye.squaredDistance && before == Cut::kNone) || chosen().hasRoot(key)) continue;
-      const Cut::Index root = chosen().addRoot(key);
-      chosen()[root].before = before;
-    }
+  const NodeKey centre = nodeAt(eye.viewer.position, rootLevel_);
+  for (std::int64_t di = -most; di <= most; ++di) {
+    takeRoot(eye, {rootLevel_, centre.i + di, centre.j - most + row_});
   }
+  if (row_++ < 2 * most) return;
+  row_ = 0;
+  ++next_;
+}
+
+void Selection::takeRoot(const Eye& eye, const NodeKey& key) {
+  if (!insideWorld(key)) return;
+  const double across = squaredAcross(eye, key, 0.0);
+  if (across > kRootsStay * kRootsStay * eye.squaredDistance) return;
+  const Cut::Index before = kept().rootLevel() == rootLevel_ ? kept().find(key) : Cut::kNone;
+  if ((across > eye.squaredDistance && before == Cut::kNone) || chosen().hasRoot(key)) return;
+  chosen()[chosen().addRoot(key)].before = before;
 }
 
 bool Selection::divide(Cut::Index index, float urgency) {
@@ -265,7 +272,9 @@ void Selection::weighSome() {
 std::size_t Selection::bytes() const noexcept {
   std::size_t bytes = cuts_[0].bytes() + cuts_[1].bytes();
   for (const std::vector<Cut::Index>& level : split_) bytes += level.capacity() * sizeof(Cut::Index);
-  return bytes;
+  constexpr std::size_t kInMap = 16;  // the links of an entry (estimated)
+  return bytes + roughNodes_.size() * (sizeof(NodeKey) + sizeof(RoughNode) + kInMap) +
+         roughNodes_.bucket_count() * sizeof(void*);
 }
 
 }  // namespace teren

@@ -4,11 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "teren/Engine.h"
+#include "teren/GroundEdits.h"
 #include "teren/Position.h"
 #include "teren/Slice.h"
 
@@ -29,11 +32,11 @@ struct Viewer {
 
 /// Chooses the coarsest nodes within every viewer's distance whose error, seen from there, is at most the
 /// pixel error wanted (DetailThreshold.h): error [m] * pixels of a metre / distance [m] to the node's box
-/// (its square, and the world's range of heights: mean +- 3 deviations). Nodes that touch, be it in a corner,
-/// are of levels at most one apart. The cut covers whole roots: the nodes of the root level within a viewer's
-/// distance, or an eighth farther if they were there before. A node stays split until its error is a fifth
-/// below the one wanted. What a viewer will see on its way counts like what it sees, so that nodes are there
-/// when they are needed.
+/// (its square, and the ground's range of heights), or kNearestGround where that is nearer. Nodes that touch,
+/// be it in a corner, are of levels at most one apart. The cut covers whole roots: the nodes of the root
+/// level within a viewer's distance, or an eighth farther if they were there before. A node stays split until
+/// its error is a fifth below the one wanted. What a viewer will see on its way counts like what it sees, so
+/// that nodes are there when they are needed.
 ///
 /// In slices: the cut kept last stays as it is until the next is kept. The same viewers after the same ones
 /// before give the same cut, whatever the slices. Not thread-safe. About 60 ns a node chosen
@@ -54,8 +57,26 @@ class Selection {
   /// errors are known does not depend on what was known when.
   void setErrors(std::span<const double> errors) {
     ground_.errors.assign(errors.begin(), errors.end());
+    roughNodes_.clear();
     forgets_ = true;
   }
+  /// A node that is known to be rougher than others of its level.
+  struct RoughNode {
+    double error = 0.0;  ///< [m]
+    double rim = 0.0;    ///< [m] how far its seams reach into the nodes beside it
+  };
+  /// At once: a choice under way is partly made without it, so choose again.
+  void setError(const NodeKey& key, const RoughNode& node) { roughNodes_.insert_or_assign(key, node); }
+  /// It is held no more, so nothing is drawn in its place by it; likewise.
+  void forgetError(const NodeKey& key) { roughNodes_.erase(key); }
+
+  /// [m] Between which the ground lies, as far as is known; from the next choice on.
+  void setHeights(double low, double high) noexcept {
+    ground_.low = low;
+    ground_.high = high;
+  }
+  /// What edits add to the errors of nodes; null: nothing.
+  void setEdits(std::shared_ptr<const GroundEdits> edits) { edits_ = std::move(edits); }
 
   /// Begins to choose, and forgets what was chosen but not kept. `tolerance` >= 1 multiplies every pixel
   /// error, where memory is short. More than `most` leaves beside the roots are not chosen.
@@ -99,15 +120,25 @@ class Selection {
     bool moves = false;
   };
 
+  RoughNode roughness(const NodeKey& key) const {
+    const auto own = roughNodes_.find(key);
+    RoughNode node = own != roughNodes_.end()
+                         ? own->second
+                         : RoughNode{ground_.errors[static_cast<std::size_t>(key.level)], 0.0};
+    if (edits_ && key.level > 0) node.error += edits_->moved(key.level, key.i, key.j);
+    return node;
+  }
   double side(int level) const noexcept { return sides_[static_cast<std::size_t>(level)]; }
   /// [m^2] across the ground, `share` of its way from where the viewer is now.
   double squaredAcross(const Eye& eye, const NodeKey& key, double share) const noexcept;
-  double seenBy(const Eye& eye, const NodeKey& key, double share) const noexcept;
+  /// Of an error of 1 m.
+  double seenBy(const Eye& eye, const NodeKey& key, double share, double rim) const noexcept;
   double shareOfWay(const Eye& eye, const NodeKey& key) const noexcept;
   float rootUrgency(const NodeKey& root) const;
   bool divide(Cut::Index index, float urgency);
   void stepUnits();
-  void findRoots(const Eye& eye);
+  void findSomeRoots();
+  void takeRoot(const Eye& eye, const NodeKey& key);
   void splitSome();
   void balanceSome();
   void balanceAround(Cut::Index index);
@@ -115,6 +146,8 @@ class Selection {
   void weighSome();
 
   Ground ground_;
+  std::unordered_map<NodeKey, RoughNode, NodeKeyHash> roughNodes_;  // few
+  std::shared_ptr<const GroundEdits> edits_;
   std::vector<double> sides_;  // [m] by level
   std::vector<Eye> eyes_;
   double tolerance_ = 1.0;
@@ -123,7 +156,8 @@ class Selection {
   std::size_t chosen_ = 0, kept_ = 1;
   Stage stage_ = Stage::chosen;
   bool forgets_ = false;  // what is split now
-  std::size_t next_ = 0;  // eye, node, split node of level_, node, pass of the stage
+  std::size_t next_ = 0;  // eye, node, split node of level_, node of the stage
+  std::int64_t row_ = 0;  // of the eye's roots
   int level_ = 0;
   std::vector<std::vector<Cut::Index>> split_;  // by level, in the order they were split
   std::size_t left_ = 0;                        // nodes that may still be split

@@ -8,6 +8,7 @@
 
 #include "patch/BorderTask.h"
 #include "patch/ErrorCalibration.h"
+#include "patch/NodeGap.h"
 #include "patch/NodeTask.h"
 #include "world/NodeErrors.h"
 
@@ -17,11 +18,13 @@ namespace {
 
 constexpr std::size_t kMostMapBytes = std::size_t{32} << 20;
 constexpr std::size_t kLeastMapBytes = std::size_t{1} << 20;
-constexpr std::size_t kSlack = std::size_t{256} << 10;  // what bytes() estimates, and what it leaves out
+constexpr std::size_t kSlack = std::size_t{256} << 10;    // what bytes() estimates, and what it leaves out
+constexpr std::size_t kEditsStep = std::size_t{1} << 20;  // of edits: not every stamp asks for another plan
 constexpr std::size_t kMostGroundBuilds = 8;
 constexpr std::size_t kMostBuildsOfAWorker = 16;
 constexpr std::size_t kJoinBatch = 16;   // with workers; without, nodes are joined one by one
 constexpr std::size_t kRefinements = 4;  // of four nodes each, likewise
+constexpr int kIdleWorks = 3;            // until what was let go of has been freed
 
 // Detail by error:
 constexpr double kChoiceStep = 1.0 / 16.0;  // [pitches] an eye moves before the next choice ...
@@ -103,6 +106,19 @@ class CalibrationSteps final : public SlicedTask {
   int left_ = 4;
 };
 
+/// Freed where it is run.
+class OldEdits final : public SlicedTask {
+ public:
+  explicit OldEdits(std::vector<std::shared_ptr<const GroundEdits>> edits) : edits_(std::move(edits)) {}
+  bool step(const Slice&) override {
+    if (!edits_.empty()) edits_.pop_back();
+    return edits_.empty();
+  }
+
+ private:
+  std::vector<std::shared_ptr<const GroundEdits>> edits_;
+};
+
 std::size_t joinBatch(int workers) {
   return workers > 0 ? kJoinBatch : 1;
 }
@@ -118,10 +134,9 @@ Streamer::Streamer(const World& world, const EngineOptions& options)
       runner_(options.workers) {
   sizeBuilds();
   if (!options.view.detail) return;
-  constexpr double kDeviations = 3.0;
-  const double range = kDeviations * world.deviation();
-  selection_.emplace(Selection::Ground{world.pitch(), world.mean() - range, world.mean() + range,
-                                       nodeErrors(world), coarsestRoot(world)});
+  range_ = groundRange();
+  selection_.emplace(
+      Selection::Ground{world.pitch(), range_.low, range_.high, nodeErrors(world), coarsestRoot(world)});
   borderBytes_ = nodes_.borderBytes();
   selectionBytes_ = options.capBytes / nodes_.drawnBytes() * 4 / 3 * kCutBytes;
 }
@@ -132,7 +147,8 @@ void Streamer::sizeBuilds() {
   for (const std::optional<DetailSettings>& view : views_) {
     if (view) views.push_back(*view);
   }
-  buildBytes_ = buildBytes(world_, options_.view.level, views);
+  // Roots never become finer again, and what is in flight goes on being counted as it was begun.
+  buildBytes_ = std::max(buildBytes_, buildBytes(world_, options_.view.level, views));
   // Tasks in flight may take an eighth of the cap, but there are two at least.
   const std::size_t most = std::max<std::size_t>(2, options_.capBytes / 8 / buildBytes_);
   mostGroundBuilds_ = std::min(kMostGroundBuilds, most / 2);
@@ -230,8 +246,9 @@ MemoryNeeds Streamer::needs(std::size_t groundNodes) const {
   needs.cap = options_.capBytes;
   needs.radius = options_.view.radius;
   needs.perNode = nodes_.drawnBytes() + nodes_.piecesBytes();
-  needs.fixed = kSlack + rendererExtra_ + selectionBytes_ + groundNodes * nodes_.heldBytes() +
-                (mostViewBuilds_ + mostGroundBuilds_) * buildBytes_ +
+  const std::size_t edits = (renewal_.editsBytes() + kEditsStep - 1) / kEditsStep * kEditsStep;
+  needs.fixed = kSlack + rendererExtra_ + selectionBytes_ + edits + groundNodes * nodes_.heldBytes() +
+                (mostViewBuilds_ + mostGroundBuilds_) * buildBytes_ + renewalBytes_ +
                 joinBatch(options_.workers) * 2 * nodes_.piecesBytes();
   needs.leastMaps = std::max(kLeastMapBytes, buildBytes_);
   needs.mostMaps = std::max(kMostMapBytes, needs.leastMaps);
@@ -329,6 +346,7 @@ bool Streamer::isViewedAsBefore() const {
 
 bool Streamer::isChosen() const {
   return choosing_ == Choosing::idle && isViewedAsBefore() && needs_ == detailNeeds() &&
+         range_ == groundRange() && !learned_ && chosenEdits_ == renewal_.shown() &&
          errorLevels_ == world_.nodeErrors().nextToCalibrate();
 }
 
@@ -337,6 +355,9 @@ bool Streamer::chooseSome(const Slice& slice) {
     case Choosing::idle:
       if (isChosen()) return false;
       beginChoice();
+      break;
+    case Choosing::learning:
+      learnSome();
       break;
     case Choosing::selecting:
       if (selection_->step(slice)) judgeChoice();
@@ -352,6 +373,20 @@ bool Streamer::chooseSome(const Slice& slice) {
   return true;
 }
 
+/// Three deviations, and farther where there were heights beyond: summits are what people fly to. In steps,
+/// so that not every node asks for another choice.
+Streamer::GroundRange Streamer::groundRange() const {
+  constexpr double kDeviations = 3.0, kStepsInADeviation = 8.0;
+  const double deviation = world_.deviation(), mean = world_.mean();
+  const auto away = [&](double measured) {
+    if (!(measured > kDeviations * deviation)) return kDeviations * deviation;
+    const double step = deviation / kStepsInADeviation;
+    return step > 0.0 ? std::ceil(measured / step) * step : measured;
+  };
+  return {mean - away(mean - static_cast<double>(nodes_.lowest())),
+          mean + away(static_cast<double>(nodes_.highest()) - mean)};
+}
+
 /// With room for a little more ground than there is, so that not every step of an object asks for another
 /// choice.
 MemoryNeeds Streamer::detailNeeds() const {
@@ -362,11 +397,49 @@ MemoryNeeds Streamer::detailNeeds() const {
 void Streamer::beginChoice() {
   chosenFor_ = viewers_;
   needs_ = detailNeeds();
-  if (errorLevels_ != world_.nodeErrors().nextToCalibrate()) {
-    errorLevels_ = world_.nodeErrors().nextToCalibrate();
-    selection_->setErrors(nodeErrors(world_));
+  range_ = groundRange();
+  selection_->setHeights(range_.low, range_.high);
+  if (chosenEdits_ && chosenEdits_ != renewal_.shown()) oldEdits_.push_back(chosenEdits_);
+  chosenEdits_ = renewal_.shown();
+  selection_->setEdits(chosenEdits_);
+  if (errorLevels_ != world_.nodeErrors().nextToCalibrate()) beginLearning();
+  choosing_ = Choosing::learning;
+}
+
+/// Once a level of the world: all nodes are to be looked at.
+void Streamer::beginLearning() {
+  errorLevels_ = world_.nodeErrors().nextToCalibrate();
+  const std::vector<double> errors = nodeErrors(world_);
+  selection_->setErrors(errors);
+  morph_ = Morph(1.0, errors);
+  toLearn_ = nodes_.nodes();
+  renewal_.lookAgain();
+}
+
+void Streamer::learnSome() {
+  constexpr std::size_t kUnits = 64;
+  for (std::size_t unit = 0; unit < kUnits && !toLearn_.empty(); ++unit, toLearn_.pop_back()) {
+    if (nodes_.heights(toLearn_.back())) noteError(toLearn_.back());
   }
+  if (!toLearn_.empty()) return;
+  learned_ = false;
   tryTolerance(std::max(tolerance_ / kToleranceStep, 1.0), tolerance_ > 1.0 ? kShareToRefine : kShareOfCap);
+}
+
+/// Few nodes are rougher than their level's estimate. Such a one is to be split earlier; and where it is off
+/// by more than what its vertices begin to move at, as early as the one above it: halfway they would be worse
+/// than wanted.
+void Streamer::noteError(const NodeKey& key) {
+  const auto level = static_cast<std::size_t>(key.level);
+  const std::span<const double> usual = selection_->errors();
+  const double own = world_.nodeErrors().estimate(key.level, static_cast<double>(nodes_.bend(key)));
+  if (key.level == 0 || own <= usual[level]) return;
+  const bool moves = level + 1 < std::min(usual.size(), Morph::kLevels);
+  const bool isFarOff = moves && own > static_cast<double>(morph_.ranges()[level].error);
+  constexpr double kDiagonal = 1.5;  // of a square, at least
+  selection_->setError(
+      key, {isFarOff ? std::max(own, usual[level + 1]) : own, kDiagonal * world_.spacing(key.level)});
+  learned_ = true;
 }
 
 void Streamer::tryTolerance(double tolerance, double share) {
@@ -408,12 +481,108 @@ bool Streamer::fits(const MemoryNeeds& needs, double share) const noexcept {
   return static_cast<double>(detailBytes()) <= share * static_cast<double>(needs.cap - taken);
 }
 
+// ---- Edits
+
+/// What is drawn keeps still from when its new pieces are planned until they are shown: then they fit.
+bool Streamer::renewSome() {
+  if (renewal_.step()) {
+    if (!renewal_.isUnderWay()) endRenewal();
+    return true;
+  }
+  if (std::unique_ptr<JoinTask> task = renewal_.takeTask()) {
+    renewalTask_ = runner_.submit(std::move(task), kGroundUrgency);
+    return true;
+  }
+  return beginRenewal(false) || planRenewal() || takeRoomForRenewal();
+}
+
+/// Somebody who edits all the time is not to keep land from coming: without workers, what else is to be done
+/// has as much time after a renewal as that took.
+bool Streamer::isTurnOfOthers() const {
+  return runner_.workers() == 0 && worked() - renewalEnded_ < renewalEnded_ - renewalBegan_;
+}
+
+bool Streamer::beginRenewal(bool isIdle) {
+  if (!renewal_.isWaiting() || renewal_.isUnderWay() || (!isIdle && isTurnOfOthers())) return false;
+  renewal_.begin();
+  renewalBegan_ = worked();
+  return true;
+}
+
+/// And one join goes first.
+bool Streamer::planRenewal() {
+  if (!renewal_.isReadyToPlan() || join_ != 0) return false;
+  if (joinGoesFirst_) {
+    if (startJoin()) {
+      joinGoesFirst_ = join_ == 0;
+      return true;
+    }
+    joinGoesFirst_ = false;
+  }
+  const bool isForced = idleWorks_ >= kIdleWorks;
+  if (renewalLacks_ > 0 && !isForced && !hasRoomFor(renewalLacks_)) return giveWay(renewalLacks_);
+  renewal_.plan();
+  return true;
+}
+
+/// Where there is none, room is planned for it from now on, and what is drawn may lessen meanwhile.
+bool Streamer::takeRoomForRenewal() {
+  if (!renewal_.isPlanned()) return false;
+  const std::size_t bytes = 2 * renewal_.plannedBytes();
+  if (hasRoomFor(bytes) || idleWorks_ >= kIdleWorks) {
+    renewal_.make();
+    return true;
+  }
+  if (giveWay(bytes)) return true;
+  renewalBytes_ = std::max(renewalBytes_, bytes);
+  renewalLacks_ = bytes;
+  renewal_.putOff();
+  return true;
+}
+
+/// Nothing else is left to be done. If no room is left to be made either, edits go before the cap: they must
+/// be shown some time.
+bool Streamer::renewIdly() {
+  if (!isRenewing() || runner_.unfinished() > 0) return false;
+  if (beginRenewal(true)) return true;
+  if (renewalLacks_ == 0 || !renewal_.isReadyToPlan() || std::exchange(wasIdle_, true)) return false;
+  return ++idleWorks_ >= kIdleWorks;
+}
+
+/// By a worker; where there are none, with what was drawn of them (letGoOfOldSnapshots).
+bool Streamer::freeOldEdits() {
+  for (auto& edits : renewal_.takeOld()) oldEdits_.push_back(std::move(edits));
+  if (runner_.workers() == 0 || freeing_ != 0 || oldEdits_.empty()) return false;
+  freeing_ = runner_.submit(std::make_unique<OldEdits>(std::exchange(oldEdits_, {})), kJoinUrgency);
+  return true;
+}
+
+void Streamer::endRenewal() {
+  joinGoesFirst_ = true;
+  renewalLacks_ = 0;
+  if (!renewal_.isWaiting()) renewalBytes_ = 0;  // else the next one lacks as much
+  idleWorks_ = 0;
+  renewalEnded_ = worked();
+  peakMeshBytes_ = std::max(peakMeshBytes_, nodes_.meshBytes());
+}
+
+std::chrono::nanoseconds Streamer::worked() const {
+  return workedBefore_ + (Slice::Clock::now() - workBegan_);
+}
+
 // ---- Working
 
 void Streamer::work(Slice::Clock::time_point deadline) {
   meter_.beginFrame(deadline);
-  lacksRoom_ = false;
+  lacksRoom_ = givesWay_ = wasIdle_ = false;
+  changesOneByOne_ = runner_.workers() == 0;
+  workBegan_ = Slice::Clock::now();
   feedWorkers();
+  workUntilDeadline();
+  workedBefore_ = worked();
+}
+
+void Streamer::workUntilDeadline() {
   while (meter_.mayStart()) {
     collect();
     if (!meter_.step(housekeeping_)) continue;
@@ -445,16 +614,22 @@ bool Streamer::Housekeeping::step(const Slice& slice) {
 }
 
 bool Streamer::tidyOne(const Slice& slice) {
-  if (!drops_.empty()) {
+  if (freeOldEdits()) return true;
+  const bool mayDrop = !drops_.empty() && !(renewal_.isFixing() && nodes_.isDrawn(drops_.back()));
+  if (renewal_.isFixing() && renewSome()) {
+  } else if (mayDrop) {
     drop(drops_.back());
     drops_.pop_back();
   } else if (const std::optional<NodeKey> unwanted = refinement_.takeUnwanted()) {
     drop(*unwanted);
+  } else if (nodes_.freeSome()) {
+    if (!nodes_.hasToFree()) lacksRoom_ = false;
   } else if (!arrived_.empty()) {
     integrate(std::move(arrived_.front()));
     arrived_.pop_front();
+  } else if (renewSome()) {
   } else if (!(selection_ && chooseSome(slice)) && !maps_.dropOldest() && !startJoin() && !startBuild() &&
-             !startCalibration()) {
+             !startCalibration() && !renewIdly()) {
     return false;
   }
   peakBytes_ = std::max(peakBytes_, bytes());
@@ -465,6 +640,7 @@ void Streamer::drop(const NodeKey& key) {
   if (selection_) {
     if (nodes_.isDrawn(key) || isWanted(key)) return;
     nodes_.erase(key);
+    selection_->forgetError(key);
     lacksRoom_ = false;
     return;
   }
@@ -487,6 +663,15 @@ void Streamer::integrate(TaskRunner::Finished finished) {
     integrateJoin(static_cast<const JoinTask&>(*finished.task));
     return;
   }
+  if (finished.ticket == renewalTask_) {
+    renewalTask_ = 0;
+    renewal_.takeBuilt(std::unique_ptr<JoinTask>(static_cast<JoinTask*>(finished.task.release())));
+    return;
+  }
+  if (finished.ticket == freeing_) {
+    freeing_ = 0;
+    return;
+  }
   if (finished.ticket == calibration_) {
     calibration_ = 0;
     if (errorsAreKnown(world_)) calibrator_.reset();
@@ -498,11 +683,11 @@ void Streamer::integrate(TaskRunner::Finished finished) {
   if (build == builds_.end() || build->second.ticket != finished.ticket) return;  // cancelled meanwhile
   if (build->second.isGround) --groundBuilds_;
   builds_.erase(build);
-  auto heights = std::make_shared<const HeightMap>(task.takeHeights());
-  auto coarser =
-      task.coarser().samples().empty() ? nullptr : std::make_shared<const HeightMap>(task.takeCoarser());
-  nodes_.insert(key, {std::move(heights), std::move(coarser)});
+  const auto bend = static_cast<float>(largestBend(task.heights().view()));
+  nodes_.insert(key, renewal_.edited(key, task.takeHeights(), task.takeCoarser()), bend);
+  renewal_.noteInserted(key);
   if (selection_) {
+    noteError(key);
     refinement_.noteHeld(key);
     countMissing();
   } else if (!isDrawable(key)) {
@@ -540,18 +725,18 @@ void Streamer::change(const DrawnChange& change, std::span<const BuiltPiece> pie
 
 bool Streamer::startRefining() {
   if (lacksRoom_ || !refinement_.mayChange()) return false;
-  DrawnChange next = refinement_.next(runner_.workers() > 0 ? kRefinements : 1);
+  DrawnChange next = refinement_.next(changesOneByOne_ ? 1 : kRefinements);
   if (next.remove.empty() && next.add.empty()) return true;
   auto task = std::make_unique<JoinTask>(nodes_, std::move(next));
   if (task->pieces().empty()) {
     change(task->change(), {});
     return true;
   }
-  if (calibration_ == 0 && !hasRoomFor(2 * task->bytes())) calibrator_.reset();  // later
-  lacksRoom_ = !hasRoomFor(2 * task->bytes());
-  if (lacksRoom_) {
+  if (!hasRoomFor(2 * task->bytes())) {
     refinement_.again(task->change());
-    return false;
+    if (giveWay(2 * task->bytes())) return true;
+    lacksRoom_ = std::exchange(changesOneByOne_, true);  // one alone may do, and free what others need
+    return !lacksRoom_;
   }
   joinBytes_ = task->bytes();
   join_ = runner_.submit(std::move(task), kJoinUrgency);
@@ -559,13 +744,12 @@ bool Streamer::startRefining() {
 }
 
 bool Streamer::startJoin() {
-  if (join_ != 0) return false;
+  if (join_ != 0 || renewal_.isFixing()) return false;
   if (selection_) return startRefining();
   if (toJoin_.empty()) return false;
   const std::size_t count = std::min(joinBatch(options_.workers), toJoin_.size());
   const std::size_t bytes = count * nodes_.piecesBytes();
-  if (calibration_ == 0 && !hasRoomFor(2 * bytes)) calibrator_.reset();  // later
-  if (!hasRoomFor(2 * bytes)) return false;
+  if (!hasRoomFor(2 * bytes)) return giveWay(2 * bytes);
   std::vector<NodeKey> batch;
   for (std::size_t k = 0; k < count; ++k) {
     batch.push_back(wanted_[*toJoin_.begin()]);
@@ -595,12 +779,11 @@ std::optional<Streamer::Wish> Streamer::nextWish() {
 bool Streamer::startBuild() {
   const std::optional<Wish> wish = nextWish();
   if (!wish) return false;
-  if (calibration_ == 0 && !hasRoomFor(buildBytes_)) calibrator_.reset();  // later
-  if (!hasRoomFor(buildBytes_)) return false;
   if (wish->isGround ? groundBuilds_ >= mostGroundBuilds_ : builds_.size() - groundBuilds_ >= viewBuilds_) {
     isFull_ = true;
     return false;
   }
+  if (!hasRoomFor(buildBytes_)) return giveWay(buildBytes_);
   const auto ticket = runner_.submit(
       std::make_unique<NodeTask>(world_, wish->key, maps_, selection_.has_value()), wish->urgency);
   builds_.emplace(wish->key, Build{ticket, wish->isGround});
@@ -626,23 +809,44 @@ bool Streamer::isMeasuring() const {
 }
 
 bool Streamer::isSettled() const {
-  if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty()) return false;
+  if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty() || isRenewing()) return false;
+  if (nodes_.hasToFree() || freeing_ != 0) return false;
   if (selection_ && (!isChosen() || refinement_.hasUnwanted() || (refinement_.mayChange() && !lacksRoom_))) {
     return false;
   }
   if (missing() == 0 && !lacksRoom_) return true;
+  if (givesWay_) return false;
   // A calibration under way gives its room back.
   return calibration_ == 0 && (lacksRoom_ || !hasRoomFor(std::max(buildBytes_, 2 * nodes_.piecesBytes())));
 }
 
 std::size_t Streamer::bytes() const {
   return maps_.bytes() + nodes_.bytes() + rendererBytes_ + builds_.size() * buildBytes_ + joinBytes_ +
-         (selection_ ? selection_->bytes() + refinement_.bytes() : 0) + (calibrator_ ? calibrationBytes_ : 0);
+         renewal_.bytes() + (selection_ ? selection_->bytes() + refinement_.bytes() : 0) +
+         (calibrator_ ? calibrationBytes_ : 0);
 }
 
-bool Streamer::hasRoomFor(std::size_t more) const {
+std::size_t Streamer::lacking(std::size_t more) const {
   const std::size_t renderer = std::max(rendererBytes_, nodes_.meshBytes() + rendererExtra_);
-  return bytes() - rendererBytes_ + renderer + more <= options_.capBytes;
+  const std::size_t needed = bytes() - rendererBytes_ + renderer + more;
+  return needed - std::min(needed, options_.capBytes);
+}
+
+bool Streamer::giveWay(std::size_t to) {
+  if (calibrator_ && calibration_ == 0) {  // later
+    calibrator_.reset();
+    return givesWay_ = true;
+  }
+  const std::size_t held = maps_.bytes(), least = std::max(kLeastMapBytes, buildBytes_);
+  if (held <= least) return false;
+  maps_.setCapacity(std::max(least, held - std::min(held, lacking(to))));
+  if (!maps_.dropOldest()) return false;
+  return givesWay_ = true;
+}
+
+void Streamer::letGoOfOldSnapshots() noexcept {
+  if (nodes_.letGoOfOldSnapshots()) lacksRoom_ = false;
+  if (runner_.workers() == 0) oldEdits_.clear();
 }
 
 void Streamer::setRendererBytes(std::size_t bytes) noexcept {

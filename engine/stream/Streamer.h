@@ -2,6 +2,7 @@
 // is not wanted, and keeps all of it under the byte cap.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -10,13 +11,16 @@
 #include <set>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "teren/Engine.h"
+#include "teren/GroundEdits.h"
 
 #include "patch/NodeKey.h"
 #include "schedule/SliceMeter.h"
 #include "schedule/TaskRunner.h"
+#include "stream/GroundRenewal.h"
 #include "stream/JoinTask.h"
 #include "stream/MemoryPlan.h"
 #include "stream/NodeStore.h"
@@ -68,16 +72,29 @@ class Streamer {
   /// Of the objects by index, while they are not active; with detail by error only.
   void setViews(std::span<const std::optional<DetailSettings>> views);
 
+  /// See Engine::setEdits.
+  void setEdits(std::shared_ptr<const GroundEdits> edits, std::span<const SampleBox> changed) {
+    renewal_.setEdits(std::move(edits), changed);
+  }
+  /// Edits are not shown yet.
+  bool isRenewing() const noexcept { return renewal_.isWaiting() || renewal_.isUnderWay(); }
+
   const NodeStore& nodes() const noexcept { return nodes_; }
+  /// What is drawn, to be published.
+  std::shared_ptr<const Scene> snapshot(const Morph& morph) { return nodes_.snapshot(morph); }
+  /// See NodeStore.
+  void letGoOfOldSnapshots() noexcept;
+  /// There are edits that go with them.
+  bool hasOldEdits() const noexcept { return !oldEdits_.empty(); }
   const SliceMeter& meter() const noexcept { return meter_; }
   const MemoryPlan& plan() const noexcept { return plan_; }
   /// [px] Aimed at; 0 in a uniform view.
   double pixelError() const noexcept {
     return options_.view.detail ? tolerance_ * options_.view.detail->pixelError : 0.0;
   }
-  /// A choice that is not done yet counts for one, which is missing.
-  std::size_t wanted() const noexcept { return wanted_.size() + refinement_.wanted() + choosing(); }
-  std::size_t missing() const noexcept { return missing_ + refinement_.missing() + choosing(); }
+  /// A choice that is not done yet counts for one, which is missing, and so do edits that are not shown yet.
+  std::size_t wanted() const noexcept { return wanted_.size() + refinement_.wanted() + underWay(); }
+  std::size_t missing() const noexcept { return missing_ + refinement_.missing() + underWay(); }
   std::size_t unfinished() const { return runner_.unfinished(); }  ///< tasks
   std::size_t bytes() const;
   std::size_t peakBytes() const noexcept { return peakBytes_; }
@@ -93,6 +110,11 @@ class Streamer {
     NodeKey key;
     std::int64_t urgency;
     bool isGround;
+  };
+  /// [m] Between which the ground lies, as far as is known.
+  struct GroundRange {
+    double low = 0.0, high = 0.0;
+    friend bool operator==(const GroundRange&, const GroundRange&) = default;
   };
   /// The caller's own work, as a task: freeing, integrating, handing out.
   class Housekeeping final : public SlicedTask {
@@ -123,10 +145,16 @@ class Streamer {
   void chooseDetail(std::span<const Motion> motions, std::size_t active);
   bool isViewedAsBefore() const;
   bool isChosen() const;
-  std::size_t choosing() const noexcept { return selection_ && !isChosen() ? 1 : 0; }
+  std::size_t underWay() const noexcept {
+    return (selection_ && !isChosen() ? 1 : 0) + (isRenewing() ? 1 : 0);
+  }
   bool chooseSome(const Slice& slice);
   MemoryNeeds detailNeeds() const;
+  GroundRange groundRange() const;
   void beginChoice();
+  void beginLearning();
+  void learnSome();
+  void noteError(const NodeKey& key);
   void tryTolerance(double tolerance, double share);
   void judgeChoice();
   bool fits(const MemoryNeeds& needs, double share) const noexcept;
@@ -134,6 +162,18 @@ class Streamer {
   std::size_t mostLeaves(const MemoryNeeds& needs) const noexcept;
   std::size_t detailBytes() const noexcept;
   bool isWanted(const NodeKey& key) const;
+
+  // Edits
+  bool renewSome();
+  bool beginRenewal(bool isIdle);
+  bool isTurnOfOthers() const;
+  bool planRenewal();
+  bool takeRoomForRenewal();
+  bool renewIdly();
+  void endRenewal();
+  bool freeOldEdits();
+  void workUntilDeadline();
+  std::chrono::nanoseconds worked() const;
 
   // Working
   std::size_t leastViewBuilds() const noexcept;
@@ -149,12 +189,16 @@ class Streamer {
   std::optional<Wish> nextWish();
   bool startBuild();
   bool startCalibration();
-  /// Under the cap, with the renderer's share of what is drawn already.
-  bool hasRoomFor(std::size_t more) const;
+  /// [bytes] Beyond the cap, with the renderer's share of what is drawn already.
+  std::size_t lacking(std::size_t more) const;
+  bool hasRoomFor(std::size_t more) const { return lacking(more) == 0; }
+  /// Frees something of what can be made again, for what lacks room (law 6): a calibration, or a base map as
+  /// long as more than the least are kept. False where nothing is left to free.
+  bool giveWay(std::size_t to);
 
   const World& world_;
   EngineOptions options_;
-  std::size_t buildBytes_ = 0;    // of one node task
+  std::size_t buildBytes_ = 0;    // of one node task, at most; never less than before
   std::size_t calibrationBytes_;  // of one calibration
   std::size_t mostViewBuilds_ = 0, mostGroundBuilds_ = 0;
   std::size_t viewBuilds_ = 1;  // in flight at once, as far as workers need them
@@ -167,7 +211,7 @@ class Streamer {
   MemoryPlan plan_;
   std::optional<NodeKey> centre_;  // of a uniform view: its node under the active object
   // With detail by error:
-  enum class Choosing { idle, selecting, turning };
+  enum class Choosing { idle, learning, selecting, turning };
   std::vector<std::optional<DetailSettings>> views_;  // of objects that are not active
   std::optional<Selection> selection_;
   Refinement refinement_{nodes_};
@@ -175,10 +219,30 @@ class Streamer {
   std::vector<Viewer> viewers_, chosenFor_;  // as they are now, and as they were for the latest choice
   MemoryNeeds needs_;                        // for the latest choice
   int errorLevels_ = -1;                     // whose errors were measured then
+  Morph morph_;                              // for a tolerance of 1: how far off nodes of each level may be
+  bool learned_ = false;                     // more of single nodes since
+  std::vector<NodeKey> toLearn_;             // held nodes whose errors are to be looked at
+  GroundRange range_;                        // of the ground, as it was known then
   Choosing choosing_ = Choosing::idle;
   double tolerance_ = 1.0;  // of the pixel error, more than 1 under the cap
   double tried_ = 1.0, share_ = 1.0;
   bool lacksRoom_ = false;  // the drawn set can be brought nearer to the cut, but for want of room
+  bool changesOneByOne_ = false;
+  bool givesWay_ = false;  // something has been freed for want of room since work() began
+
+  GroundRenewal renewal_{world_, nodes_};
+  std::shared_ptr<const GroundEdits> chosenEdits_;            // of the latest choice
+  std::vector<std::shared_ptr<const GroundEdits>> oldEdits_;  // to be let go of
+  TaskRunner::Ticket freeing_ = 0;                            // of such, in flight or arrived; 0: none
+  TaskRunner::Ticket renewalTask_ = 0;                        // in flight or arrived; 0: none
+  std::size_t renewalBytes_ = 0;  // kept free since one found no room, till all are shown
+  std::size_t renewalLacks_ = 0;  // room for so many, of the one under way
+  bool joinGoesFirst_ = false;    // one since the last renewal
+  int idleWorks_ = 0;             // calls of work() that had nothing else to do since it lacks room
+  bool wasIdle_ = false;          // this one
+  // Of work() alone:
+  Slice::Clock::time_point workBegan_{};
+  std::chrono::nanoseconds workedBefore_{0}, renewalBegan_{0}, renewalEnded_{0};
 
   GroundNodes groundOfOne_;
   std::vector<std::vector<NodeKey>> groundLists_;

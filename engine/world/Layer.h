@@ -36,11 +36,12 @@ class MessageBox {
   std::optional<std::string> failure_;
 };
 
-/// What makes a layer. `ids` are the plugins', the generator's first, then the filters', for messages.
+/// What makes a layer. `ids` are the plugins', the generator's first, then the filters', for messages;
+/// `versions` are theirs.
 struct LayerPlugins {
   std::shared_ptr<const Generator> generator;
   std::vector<std::shared_ptr<const Filter>> filters;
-  std::vector<std::string> ids;
+  std::vector<std::string> ids, versions;
   /// The generator, where it is continuous and no filters follow: then it makes no maps, but a field.
   const ContinuousGenerator* field = nullptr;
   double fieldError = 0.0;  ///< [m] its ContinuousGenerator::fieldError at the spacing of level 0
@@ -66,6 +67,7 @@ class Layer {
   const Generator& generator() const noexcept { return *plugins_.generator; }
   const std::vector<std::shared_ptr<const Filter>>& filters() const noexcept { return plugins_.filters; }
   const std::vector<std::string>& pluginIds() const noexcept { return plugins_.ids; }
+  const std::vector<std::string>& pluginVersions() const noexcept { return plugins_.versions; }
   /// Not null: the layer is this field, its samples are drawn as they are, and nothing said of maps concerns
   /// it.
   const ContinuousGenerator* field() const noexcept { return plugins_.field; }

@@ -14,6 +14,7 @@
 #include "height/Surface.h"
 #include "plugin/Thrown.h"
 #include "world/BaseMap.h"
+#include "world/DescriptionHash.h"
 #include "world/ErrorBound.h"
 #include "world/FieldTask.h"
 #include "world/Layer.h"
@@ -138,6 +139,7 @@ Result<Layer> makeLayer(const LayerDescription& description, const WorldDescript
   LayerPlugins plugins;
   plugins.generator = std::move(*generator);
   plugins.ids = {description.generator};
+  plugins.versions = {registry.find(description.generator)->version};
   for (const FilterDescription& wanted : description.filters) {
     Result<std::shared_ptr<const Filter>> filter = registry.makeFilter(wanted.filter, wanted.parameters);
     if (!filter) return Error{where + filter.error().message};
@@ -145,6 +147,7 @@ Result<Layer> makeLayer(const LayerDescription& description, const WorldDescript
     if (!range) return range.error();
     plugins.filters.push_back(std::move(*filter));
     plugins.ids.push_back(wanted.filter);
+    plugins.versions.push_back(registry.find(wanted.filter)->version);
   }
   if (plugins.filters.empty()) {
     const double spacing = world.pitch / static_cast<double>(1 << worldBits);
@@ -321,6 +324,7 @@ Result<std::shared_ptr<const World>> World::create(const WorldDescription& descr
     world->topLevel_ = std::max(world->topLevel_, made->cutLevel());
     world->layers_.push_back(std::move(*made));
   }
+  world->descriptionHash_ = teren::descriptionHash(description, *layers, registry);
   world->queryMaps_ = std::make_unique<BaseMapStore>(kQueryBytes);
   world->nodeErrors_ = std::make_unique<NodeErrors>(world->layers_, world->spacing(0), world->topLevel_);
   return std::shared_ptr<const World>(std::move(world));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 namespace teren {
 namespace {
@@ -85,15 +87,16 @@ void CleanUp::addMoved(VertexId v) {
   add(v);
 }
 
-void CleanUp::run(SandSurface& surface, Slides& slides, std::uint32_t kept) {
-  for (const VertexId v : queue_) {
+void CleanUp::run(SandSurface& surface, Slides& slides, std::uint32_t kept, std::size_t most) {
+  const std::size_t looked = std::min(most, queue_.size());
+  for (const VertexId v : std::span(queue_.data(), looked)) {
     waiting_.erase(v);
     if (!surface.mesh().isVertex(v)) continue;
     ++count_.looked;
     if (surface.mesh().constraintsAt(v) > 0) dissolveAt(surface, slides, v, kept);
     if (surface.mesh().constraintsAt(v) == 0) removeIfFlat(surface, slides, v);
   }
-  queue_.clear();
+  queue_.serve(looked);
 }
 
 void CleanUp::dissolveAt(SandSurface& surface, Slides& slides, VertexId v, std::uint32_t kept) {
@@ -184,8 +187,8 @@ void CleanUp::removeIfFlat(SandSurface& surface, Slides& slides, VertexId v) {
 }
 
 std::size_t CleanUp::bytes() const noexcept {
-  return sizeof(*this) + waiting_.bytes() + carried_.bytes() +
-         (queue_.capacity() + ring_.capacity()) * sizeof(VertexId);
+  return sizeof(*this) + waiting_.bytes() + carried_.bytes() + queue_.bytes() +
+         ring_.capacity() * sizeof(VertexId);
 }
 
 }  // namespace teren

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "generators/sand/FrontQueue.h"
 #include "generators/sand/MarkSet.h"
 #include "generators/sand/SandSurface.h"
 #include "generators/sand/Slides.h"
@@ -50,9 +51,10 @@ class CleanUp {
   }
   /// A vertex that has moved by itself, or come: it carries no error.
   void addMoved(VertexId v);
-  /// Looks at every vertex that waits. Constraints with an id of at least `kept` stay. Faces that changed are
-  /// added to the slides.
-  void run(SandSurface& surface, Slides& slides, std::uint32_t kept);
+  std::size_t waiting() const noexcept { return queue_.size(); }
+  /// Looks at the vertices that wait, at most so many. Constraints with an id of at least `kept` stay. Faces
+  /// that changed are added to the slides.
+  void run(SandSurface& surface, Slides& slides, std::uint32_t kept, std::size_t most);
 
   const CleanUpCount& count() const noexcept { return count_; }
   std::size_t bytes() const noexcept;
@@ -71,7 +73,7 @@ class CleanUp {
   double tolerance_;
   CleanUpCount count_;
   MarkSet waiting_;
-  std::vector<VertexId> queue_;
+  FrontQueue<VertexId> queue_;
   CompactArray<std::uint16_t> carried_;  // in parts of the tolerance
   std::vector<VertexId> ring_;
   double slope_ = 0.0;  // of the plane through the vertex that bandAround was asked for

@@ -151,9 +151,14 @@ std::optional<FaceMove> slideFace(const Face& face, const Repose& repose, double
                                   const VolumeLedger& ledger) noexcept {
   const double slope = slopeOf(face, step);
   if (!(slope > repose.start)) return std::nullopt;
+  if (face[0].isFixed + face[1].isFixed + face[2].isFixed > 1) return std::nullopt;
   RealMove move = contraction(face, slope, repose.rest);
-  std::size_t held = 3;  // the highest bare corner that should fall, or might when rounded
+  std::size_t held = 3;  // the fixed corner, or the highest bare one that should fall, or might when rounded
   for (std::size_t i = 0; i < 3; ++i) {
+    if (face[i].isFixed) {
+      held = i;
+      break;
+    }
     const bool holds = move[i] < kSurelyRises && !canFall(face[i]);
     if (holds && (held == 3 || face[i].height > face[held].height)) held = i;
   }

@@ -18,6 +18,7 @@ struct FaceCorner {
   std::int64_t height = 0;  // of the surface [ticks]
   std::int64_t loose = 0;   // of that, thickness of loose material [ticks], >= 0
   std::int64_t weight = 0;  // > 0
+  bool isFixed = false;     // bears nothing loose, and nothing may be laid on it
 };
 
 /// Corners counter-clockwise, not collinear.
@@ -39,8 +40,9 @@ constexpr bool isLoose(const Face& face) noexcept {
 ///
 /// The deviations of the heights from their weighted mean shrink by rest / slope, which makes the slope rest
 /// and keeps the volume. No corner falls by as much as its loose thickness: the move is cut short where one
-/// would. Where a corner that should fall is bare, the other two exchange: the higher gives to the lower,
-/// never beyond equal heights, as far as the slope needs or, where it does not reach rest, falls.
+/// would. Where a corner that should fall is bare, or one is fixed, the other two exchange: the higher gives
+/// to the lower, never beyond equal heights, as far as the slope needs or, where it does not reach rest,
+/// falls.
 ///
 /// Rounded to ticks, the heaviest corner balances the ledger; the move is to be entered there. A move always
 /// lowers sum(weight (height - mean)^2) over the face, strictly, and is not made where ticks are too coarse

@@ -41,6 +41,8 @@ SandState::Numbers SandState::numbersOf(const Sandbox& sandbox) {
   numbers.cleanUp = sandbox.cleanUp_.count_;
   numbers.slidingPosition = sandbox.slides_.position_;
   numbers.removable = sandbox.removable_;
+  numbers.cleaningRound = static_cast<std::uint32_t>(sandbox.round_);
+  numbers.unsettled = sandbox.unsettled_ ? 1 : 0;
   numbers.freeVertices = mesh.freeVertices_;
   numbers.freeTriangles = mesh.freeTriangles_;
   numbers.constraints = surface.mesh_.table_.used_;
@@ -65,6 +67,8 @@ void SandState::assignNumbers(Sandbox& sandbox, const Numbers& numbers) {
   sandbox.cleanUp_.count_ = numbers.cleanUp;
   sandbox.slides_.position_ = numbers.slidingPosition;
   sandbox.removable_ = numbers.removable;
+  sandbox.round_ = numbers.cleaningRound;
+  sandbox.unsettled_ = numbers.unsettled != 0;
   mesh.freeVertices_ = numbers.freeVertices;
   mesh.freeTriangles_ = numbers.freeTriangles;
   surface.mesh_.table_.used_ = numbers.constraints;
@@ -78,6 +82,7 @@ void SandState::assignNumbers(Sandbox& sandbox, const Numbers& numbers) {
 }
 
 SandState::SandState(const Sandbox& sandbox) : numbers_(numbersOf(sandbox)) {
+  assert(!sandbox.surface_.cells_.hasFence());
   sections_[kNumbers] = std::as_bytes(std::span(&numbers_, 1));
   forEachArray(sandbox, [this](Section section, const auto& array) {
     sections_[section] = std::as_bytes(std::span(array.data(), array.size()));

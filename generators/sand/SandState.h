@@ -17,7 +17,8 @@ namespace teren {
 /// Two sandboxes with equal sections become the same, bit for bit, under the same calls: heights, thickness,
 /// the triangulation with its slots, its free ones and where its searches begin, constraints with their ids,
 /// what waits to slide and to be looked at, carried errors, the account, counters, settings. What is kept
-/// only so that nothing is allocated is not among them, nor what has changed since somebody looked.
+/// only so that nothing is allocated is not among them, nor what has changed since somebody looked. Boxes
+/// with a fence are not archived (assert).
 ///
 /// Sections are little endian, as memory is on the machines that Teren runs on.
 class SandState {
@@ -73,7 +74,7 @@ class SandState {
     std::uint32_t freeVertex = 0, freeTriangle = 0;
     std::int32_t cellShift = 0;
     std::uint32_t nextId = 0, near = 0, keptId = 0;
-    std::uint64_t padding = 0;  // so that all bytes are somebody's
+    std::uint32_t cleaningRound = 0, unsettled = 0;
   };
   static_assert(sizeof(Numbers) == 256 && sizeof(SandSettings) == 56, "a new number is a new format");
 

@@ -78,7 +78,7 @@ Result<void> SandState::checkSizes(const Numbers& numbers, const Sections& secti
                    numbers.freeVertices <= vertices && numbers.freeTriangles <= count[kTriangles] &&
                    (places & (places - 1)) == 0 && 4 * numbers.constraints <= 3 * places &&
                    count[kCells] == cells(numbers.frame.width) * cells(numbers.frame.height) &&
-                   numbers.slidingPosition <= count[kSlidingNow];
+                   numbers.slidingPosition <= count[kSlidingNow] && numbers.cleaningRound <= count[kToClean];
   if (!fit) return Error{"its arrays' sizes do not fit together"};
   return {};
 }

@@ -114,8 +114,8 @@ void SandSurface::begin() {
   mesh_.recordChanges(&changes_, &fenced_);
 }
 
-/// Enters what the recorded changes did to the volume, and lists what they touched.
-void SandSurface::finish(const Gone& gone) {
+/// What the recorded changes did to the volume; lists what they touched.
+SixfoldVolume SandSurface::finish(const Gone& gone) {
   mesh_.recordChanges(nullptr);
   for (const TriangleId t : fenced_) changedTriangles_.add(t);
   seen_.clear();
@@ -136,7 +136,7 @@ void SandSurface::finish(const Gone& gone) {
         static_cast<WideInteger>(orientation(place(a), place(b), place(c))) * (high(a) + high(b) + high(c));
     change += one.created ? volume : -volume;
   }
-  ledger_.enterDue(change);
+  return change;
 }
 
 /// Vertices that the triangulation made where constraints cross lie on the surface, but not on a whole tick,
@@ -181,8 +181,25 @@ VertexId SandSurface::insert(LatticePoint p, TriangleId hint) {
   if (place.kind == Location::Kind::vertex) return mesh_.corners(place.triangle)[place.corner];
   begin();
   const VertexId v = add(p, place.triangle);
-  finish({});
+  ledger_.enterDue(finish({}));
   return v;
+}
+
+VertexId SandSurface::enter(LatticePoint p, std::int64_t ticks, TriangleId hint) {
+  const Location place = mesh_.locate(p, hint);
+  if (place.kind == Location::Kind::vertex) return mesh_.corners(place.triangle)[place.corner];
+  begin();
+  const VertexId v = mesh_.insert(p, metresFromTicks(ticks), place.triangle).vertex;
+  adopt(v, ticks, 0);
+  changedVertices_.add(v);
+  entered_ += finish({});
+  return v;
+}
+
+void SandSurface::enterEdge(VertexId a, VertexId b, std::uint32_t id) {
+  begin();
+  mesh_.constrain(a, b, id);
+  entered_ += finish({});
 }
 
 LatticePoint SandSurface::middle(VertexId a, VertexId b) const noexcept {
@@ -192,6 +209,7 @@ LatticePoint SandSurface::middle(VertexId a, VertexId b) const noexcept {
 
 VertexId SandSurface::divide(VertexId a, VertexId b) {
   const LatticePoint p = middle(a, b);
+  if (cells_.isFixed(p)) return kNoVertex;
   if (mesh_.vertexAt(p, mesh_.triangleAt(a)) != kNoVertex) return kNoVertex;
   const auto id = mesh_.constraint(a, b);
   begin();
@@ -201,11 +219,12 @@ VertexId SandSurface::divide(VertexId a, VertexId b) {
     mesh_.constrain(a, between, *id);
     mesh_.constrain(between, b, *id);
   }
-  finish({});
+  ledger_.enterDue(finish({}));
   return between;
 }
 
 bool SandSurface::remove(VertexId v) {
+  if (isFixed(v)) return false;
   const Gone gone{v, mesh_.point(v), height(v)};
   begin();
   const bool removed = mesh_.remove(v);
@@ -213,20 +232,20 @@ bool SandSurface::remove(VertexId v) {
     loose_[v] = kNoLoose;
     changedVertices_.add(v);
   }
-  finish(gone);
+  ledger_.enterDue(finish(gone));
   return removed;
 }
 
 void SandSurface::constrain(VertexId a, VertexId b, std::uint32_t id) {
   begin();
   mesh_.constrain(a, b, id);
-  finish({});
+  ledger_.enterDue(finish({}));
 }
 
 bool SandSurface::unconstrain(VertexId a, VertexId b) {
   begin();
   const bool found = mesh_.unconstrain(a, b);
-  finish({});
+  ledger_.enterDue(finish({}));
   return found;
 }
 
@@ -235,20 +254,30 @@ void SandSurface::noteMoved(VertexId v) {
   mesh_.forEachCorner(v, [&](Link at) { changedTriangles_.add(at.triangle()); });
 }
 
-void SandSurface::raise(VertexId v, std::int64_t ticks) {
+/// Returns what that adds to the volume.
+SixfoldVolume SandSurface::lift(VertexId v, std::int64_t ticks) {
+  if (isFixed(v)) return 0;
   const std::int64_t before = height(v);
   const std::int64_t rise = clamped(before + asTicks(ticks)) - before;
-  if (rise == 0) return;
+  if (rise == 0) return 0;
   const SixfoldVolume volume = static_cast<WideInteger>(weight(v)) * rise;
   setHeight(v, before + rise);
   loose_[v] = std::max<std::int64_t>(loose_[v] + rise, 0);
-  ledger_.enterDue(volume);
   if (rise > 0) moved_ += volume;
   noteMoved(v);
+  return volume;
+}
+
+void SandSurface::raise(VertexId v, std::int64_t ticks) {
+  ledger_.enterDue(lift(v, ticks));
+}
+
+void SandSurface::pour(VertexId v, std::int64_t ticks) {
+  entered_ += lift(v, ticks);
 }
 
 void SandSurface::loosen(VertexId v, std::int64_t depth) {
-  if (depth <= loose_[v]) return;
+  if (depth <= loose_[v] || isFixed(v)) return;
   loose_[v] = depth;
   noteMoved(v);
 }
@@ -268,11 +297,12 @@ void SandSurface::apply(TriangleId t, const Face& face, const FaceMove& move, co
 }
 
 void SandSurface::settle(std::span<const VertexId> vertices) {
-  if (vertices.empty() || (due() == 0 && owed() == 0)) return;
+  if (due() == 0 && owed() == 0) return;
   WideInteger weights = 0;
   std::int64_t most = 0;
-  VertexId heaviest = vertices.front();
+  VertexId heaviest = kNoVertex;
   for (const VertexId v : vertices) {
+    if (isFixed(v)) continue;
     const std::int64_t one = weight(v);
     weights += one;
     if (one > most) {
@@ -280,6 +310,7 @@ void SandSurface::settle(std::span<const VertexId> vertices) {
       heaviest = v;
     }
   }
+  if (heaviest == kNoVertex) return;
   const std::int64_t all = ticksNearest(due(), weights);
   if (all != 0) {
     for (const VertexId v : vertices) raise(v, all);
@@ -294,9 +325,10 @@ void SandSurface::clearChanges() noexcept {
 }
 
 std::size_t SandSurface::bytes() const noexcept {
-  return sizeof(*this) - sizeof(mesh_) + mesh_.bytes() + loose_.bytes() + changedVertices_.bytes() +
-         changedTriangles_.bytes() + seen_.bytes() + changes_.capacity() * sizeof(TriangleChange) +
-         fenced_.capacity() * sizeof(TriangleId) + touched_.capacity() * sizeof(VertexId);
+  return sizeof(*this) - sizeof(mesh_) + mesh_.bytes() + loose_.bytes() + cells_.bytes() +
+         changedVertices_.bytes() + changedTriangles_.bytes() + seen_.bytes() +
+         changes_.capacity() * sizeof(TriangleChange) + fenced_.capacity() * sizeof(TriangleId) +
+         touched_.capacity() * sizeof(VertexId);
 }
 
 Result<void> SandSurface::validate() const {

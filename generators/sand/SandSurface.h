@@ -12,6 +12,7 @@
 
 #include "generators/sand/ChangeList.h"
 #include "generators/sand/FaceSlide.h"
+#include "generators/sand/OpenCells.h"
 #include "generators/sand/Ticks.h"
 #include "generators/sand/VolumeLedger.h"
 #include "generators/tin/Triangulation.h"
@@ -21,10 +22,13 @@ namespace teren {
 /// Every vertex has a height, a whole number of ticks, and of that a thickness of loose material >= 0; what
 /// is below is solid. Heights are those of the triangulation, whose doubles hold ticks exactly.
 ///
-/// volume() + owed() never changes: every operation enters what it did to the volume of the piecewise linear
-/// surface, flips and crossings included, in exact integers. It does not pay at once;
+/// volume() + owed() - entered() never changes: every operation enters what it did to the volume of the
+/// piecewise linear surface, flips and crossings included, in exact integers. It does not pay at once;
 /// settle() does, from vertices of the caller's choice. Solid and loose are interpolated where a vertex
 /// comes; which of the two a given volume is, is not accounted for.
+///
+/// A surface may have a fence (OpenCells): vertices that are fixed keep their height, bear nothing loose and
+/// stay, whatever they are asked for; what they should pay others pay, or it remains due.
 ///
 /// Costs: an operation's own in Triangulation; k neighbours make a weight O(k). Memory: 8 bytes a vertex
 /// beside the triangulation, and 1 bit a vertex and a triangle for the lists of what changed. One thread.
@@ -44,6 +48,11 @@ class SandSurface {
               std::span<const double> heights, double loose, std::size_t spare = 0);
 
   const Triangulation& mesh() const noexcept { return mesh_; }
+  /// Closes all squares of a grid: for a box to which its ground comes square by square (Opening.h).
+  void fence(const OpenCells& cells) { cells_ = cells; }
+  const OpenCells& cells() const noexcept { return cells_; }
+  void open(int column, int row) { cells_.open(column, row); }
+  bool isFixed(VertexId v) const noexcept { return cells_.isFixed(mesh_.point(v)); }
   double step() const noexcept { return mesh_.frame().step; }  // [m]
   std::int64_t height(VertexId v) const noexcept { return ticksOf(mesh_.height(v)); }
   std::int64_t loose(VertexId v) const noexcept { return loose_[v]; }
@@ -52,7 +61,7 @@ class SandSurface {
   std::int64_t weight(VertexId v) const noexcept;
   /// The same; these triangles replace what is in the list.
   std::int64_t weight(VertexId v, std::vector<TriangleId>& star) const;
-  /// The corners of a triangle without their weights, which are 0.
+  /// The corners of a triangle without their weights, which are 0, and as if none were fixed.
   Face unweighedFace(TriangleId t) const noexcept;
   /// Height [ticks] of the triangles at a lattice point of the box, rounded.
   std::int64_t heightAt(LatticePoint p, TriangleId hint) const noexcept;
@@ -66,9 +75,17 @@ class SandSurface {
   /// All the volume that slides, stamps and settling have raised, sixfold [ticks steps^2]: what drift is
   /// measured against.
   SixfoldVolume volumeMoved() const noexcept { return moved_; }
+  /// All the volume that was added from outside: ground that entered, sand that was poured.
+  SixfoldVolume entered() const noexcept { return entered_; }
 
   /// Adds a vertex on the surface, or finds the one that is there.
   VertexId insert(LatticePoint p, TriangleId hint = kNoTriangle);
+  /// Ground enters: a solid vertex at a height of its own, or the one that is there; and an edge of it as
+  /// Triangulation::constrain. What that does to the volume is entered().
+  VertexId enter(LatticePoint p, std::int64_t ticks, TriangleId hint = kNoTriangle);
+  void enterEdge(VertexId a, VertexId b, std::uint32_t id);
+  /// Triangulation::turn.
+  void turn(TriangleId t, VertexId first) noexcept { mesh_.turn(t, first); }
   /// Half way between two vertices, rounded down to a step.
   LatticePoint middle(VertexId a, VertexId b) const noexcept;
   /// Adds a vertex in the middle() of an edge; a constraint goes through it. kNoVertex, and nothing changes,
@@ -83,6 +100,8 @@ class SandSurface {
   /// Raises a vertex by some ticks, up to its limit at most. What comes is loose; what goes is loose as far
   /// as that lasts, then solid.
   void raise(VertexId v, std::int64_t ticks);
+  /// Raises it by loose material from outside.
+  void pour(VertexId v, std::int64_t ticks);
   /// Makes material loose down to this depth [ticks] below the surface.
   void loosen(VertexId v, std::int64_t depth);
   /// The triangles at each corner of a face.
@@ -93,7 +112,7 @@ class SandSurface {
   /// Pays what is due: all these vertices, different ones, rise by as many whole ticks as come nearest, the
   /// heaviest by what is left, and by a tick more where that lessens what is owed beside. So |owed| ends at
   /// half the heaviest's weight or at the old debt, whichever is more, however large that debt; only where a
-  /// height comes to its limit more remains. Nothing without vertices.
+  /// height comes to its limit more remains. Fixed vertices do not pay. Nothing without others.
   void settle(std::span<const VertexId> vertices);
   /// The triangles that the last insertion, division, removal or (un)constraining took or made, in order; a
   /// flip counts four, and one may come and go.
@@ -132,7 +151,8 @@ class SandSurface {
   void adoptCrossings();
   void begin();
   VertexId add(LatticePoint p, TriangleId t);
-  void finish(const Gone& gone);
+  SixfoldVolume finish(const Gone& gone);
+  SixfoldVolume lift(VertexId v, std::int64_t ticks);
   std::int64_t looseAt(LatticePoint p, TriangleId t) const noexcept;
   void noteMoved(VertexId v);
 
@@ -141,6 +161,8 @@ class SandSurface {
   CompactArray<std::int64_t> loose_;            // [ticks]
   VolumeLedger ledger_;
   SixfoldVolume moved_ = 0;
+  SixfoldVolume entered_ = 0;
+  OpenCells cells_;
   ChangeList changedVertices_;
   ChangeList changedTriangles_;
 

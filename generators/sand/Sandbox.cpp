@@ -21,6 +21,18 @@ void Sandbox::setRepose(double dryAngle, double moisture) {
   loosenAll();
 }
 
+void Sandbox::setReposeOfWhatMoves(double dryAngle, double moisture) {
+  settings_.dryAngle = dryAngle;
+  settings_.moisture = moisture;
+  slides_.setRepose(reposeOf(dryAngle, moisture));
+}
+
+void Sandbox::push() noexcept {
+  removable_ = surface_.mesh().vertexCount();
+  round_ = 0;
+  unsettled_ = false;
+}
+
 void Sandbox::loosenAll() {
   slides_.addAll(surface_);
   push();
@@ -52,19 +64,64 @@ Result<StampReport> Sandbox::stamp(const ToolShape& tool, const StampPlace& plac
   return report;
 }
 
+void Sandbox::open(ConstHeightView ground, double x, double y, double distance) {
+  opening_.enter(surface_, ground, x, y, distance);
+  surface_.clearChanges();  // nobody has seen it, and it is solid
+  for (const VertexId v : opening_.inside()) cleanUp_.add(v);
+  opening_.join(surface_);
+  collectChanges(Phase::stamping);
+}
+
+void Sandbox::pour(double x, double y, double radius, double height) {
+  constexpr int kRings = 8;  // vertices this close, in parts of the radius
+  const LatticeFrame& frame = surface_.mesh().frame();
+  const LatticePoint middle = *frame.snap(x, y);
+  const std::int32_t apart = static_cast<std::int32_t>(radius / frame.step) / kRings;
+  const auto squaredDistance = [&](LatticePoint p) {
+    const double east = (p.x - middle.x) * frame.step, north = (p.y - middle.y) * frame.step;
+    return east * east + north * north;
+  };
+  ChangeList heap;
+  VertexId near = surface_.insert(middle);
+  for (int row = -kRings; row <= kRings; ++row) {
+    for (int column = -kRings; column <= kRings; ++column) {
+      const LatticePoint p{middle.x + column * apart, middle.y + row * apart};
+      if (!(squaredDistance(p) < radius * radius)) continue;
+      near = surface_.insert(p, surface_.mesh().triangleAt(near));
+      heap.add(near);
+    }
+  }
+  for (std::size_t n = 0; n < heap.ids().size(); ++n) {
+    surface_.mesh().forEachNeighbour(heap.ids()[n], [&](VertexId v) {
+      if (squaredDistance(surface_.mesh().point(v)) < radius * radius) heap.add(v);
+    });
+  }
+  surface_.settle(heap.ids());  // what the flips around new vertices took
+  for (const VertexId v : heap.ids()) {
+    const double part = squaredDistance(surface_.mesh().point(v)) / (radius * radius);
+    surface_.pour(v, ticksFromMetres(height * (1.0 - part)));
+  }
+  push();
+  collectChanges(Phase::stamping);
+}
+
 bool Sandbox::slide(std::uint64_t steps) {
   const bool atRest = slides_.advance(surface_, steps);
   collectChanges(Phase::sliding);
   return atRest;
 }
 
-void Sandbox::clean() {
-  if (removable_ == 0) return;
+void Sandbox::clean(std::size_t most) {
+  if (!hasToClean()) return;
+  if (round_ == 0) round_ = cleanUp_.waiting();
   const bool rested = slides_.atRest();
   const std::uint64_t before = cleanUp_.count().removed;
-  cleanUp_.run(surface_, slides_, keptId_);
+  const std::size_t looked = std::min(most, round_);
+  cleanUp_.run(surface_, slides_, keptId_, looked);
   removable_ -= std::min<std::size_t>(removable_, cleanUp_.count().removed - before);
-  if (rested && !slides_.atRest()) removable_ /= 2;
+  unsettled_ = unsettled_ || (rested && !slides_.atRest());
+  round_ -= looked;
+  if (round_ == 0 && std::exchange(unsettled_, false)) removable_ /= 2;
   collectChanges(Phase::cleaning);
 }
 
@@ -80,10 +137,10 @@ void Sandbox::forgetChanges() noexcept {
 }
 
 std::size_t Sandbox::bytes() const noexcept {
-  constexpr std::size_t kParts =
-      sizeof(surface_) + sizeof(slides_) + sizeof(cleanUp_) + sizeof(stamper_);  // each counts itself
+  constexpr std::size_t kParts = sizeof(surface_) + sizeof(slides_) + sizeof(cleanUp_) + sizeof(stamper_) +
+                                 sizeof(opening_);  // each counts itself
   return sizeof(*this) - kParts + surface_.bytes() + slides_.bytes() + cleanUp_.bytes() + stamper_.bytes() +
-         changedVertices_.bytes() + changedTriangles_.bytes();
+         opening_.bytes() + changedVertices_.bytes() + changedTriangles_.bytes();
 }
 
 }  // namespace teren

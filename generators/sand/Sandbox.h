@@ -7,6 +7,7 @@
 #include "teren/Result.h"
 
 #include "generators/sand/CleanUp.h"
+#include "generators/sand/Opening.h"
 #include "generators/sand/SandSurface.h"
 #include "generators/sand/Slides.h"
 #include "generators/sand/Stamper.h"
@@ -25,9 +26,10 @@ struct SandSettings {
 /// One iteration: any number of stamps, then slides, then clean-up; then whoever draws asks for changes().
 /// What clean-up unsettles slides in the next iteration, which may divide edges that clean-up joined. So that
 /// this ends, the vertices that clean-up may take after a push (a stamp, another angle of repose,
-/// loosenAll()) are counted: as many as there were then, and half of what is left each time that it unsettles
-/// sand at rest. So any game comes to rest in log2(vertices) + 2 iterations of unlimited steps; what is left
-/// to clean waits for the next push.
+/// loosenAll()) are counted: as many as there were then, and half of what is left after each round that
+/// unsettled sand at rest. A round looks at all that waited when it began, in however many calls. So any game
+/// comes to rest in log2(vertices) + 2 iterations of unlimited steps; what is left to clean waits for the
+/// next push.
 ///
 /// What is computed depends on the calls and their numbers of steps alone, so it is the same on every
 /// machine. Costs are bounded by what is touched, not by the mesh. One thread; whoever draws in another one
@@ -43,18 +45,30 @@ class Sandbox {
   const CleanUp& cleanUp() const noexcept { return cleanUp_; }
   /// Other sand from now on; all faces are looked at again, which is O(n).
   void setRepose(double dryAngle, double moisture);
+  /// Other sand from now on, but what is at rest stays so until something moves it. O(1).
+  void setReposeOfWhatMoves(double dryAngle, double moisture);
   /// Looks at all faces again, as a new sandbox whose ground may be steep needs. O(n).
   void loosenAll();
 
   /// Presses a tool in; Stamper::stamp.
   Result<StampReport> stamp(const ToolShape& tool, const StampPlace& place);
+  /// Takes the squares of a grid of ground within a distance of a place [m] into a fenced box; Opening.h.
+  void open(ConstHeightView ground, double x, double y, double distance);
+  /// Pours loose sand on: a mound, paraboloid of revolution, on what lies there. All in metres, finite, the
+  /// radius at least 32 steps and its disc in the box. What slides, slides later.
+  void pour(double x, double y, double radius, double height);
   /// Lets steep faces slide, at most so many steps. True: all is at rest.
   bool slide(std::uint64_t steps);
+  /// Slides::stop.
+  void stopSliding() noexcept { slides_.stop(); }
   /// Removes flat vertices among those that have moved since the last clean-up; nothing where it has taken
-  /// its share since the last push.
-  void clean();
+  /// its share since the last push. At most so many of them.
+  void clean(std::size_t most = SandSurface::kMostVertices);
   /// slide(steps) and clean(). True: all is at rest.
   bool iterate(std::uint64_t steps);
+  /// clean() would look at something.
+  bool hasToClean() const noexcept { return removable_ > 0 && cleanUp_.waiting() > 0; }
+  bool isDone() const noexcept { return slides_.atRest() && !hasToClean(); }
 
   /// Slots of vertices and triangles that changed, came or went since the last forgetChanges(): what a copy
   /// of the surface, kept elsewhere, has to look at.
@@ -69,7 +83,7 @@ class Sandbox {
   friend class SandState;  // archives
 
   enum class Phase { stamping, sliding, cleaning };
-  void push() noexcept { removable_ = surface_.mesh().vertexCount(); }
+  void push() noexcept;
   void collectChanges(Phase phase);
 
   SandSettings settings_;
@@ -77,8 +91,11 @@ class Sandbox {
   Slides slides_;
   CleanUp cleanUp_;
   Stamper stamper_;
+  Opening opening_;
   std::uint32_t keptId_ = 0;   // constraints of the last stamp stay until the next
   std::size_t removable_ = 0;  // so many vertices clean-up may still take
+  std::size_t round_ = 0;      // so many it still looks at in its round
+  bool unsettled_ = false;     // sand at rest, in this round
   ChangeList changedVertices_;
   ChangeList changedTriangles_;
 };

@@ -40,6 +40,7 @@ std::pair<VertexId, VertexId> edgeToDivide(const SandSurface& surface, VertexId 
 }  // namespace
 
 void Slides::addAround(const SandSurface& surface, VertexId v) {
+  if (surface.isFixed(v)) return;
   surface.mesh().forEachCorner(v, [this](Link at) { add(at.triangle()); });
 }
 
@@ -65,6 +66,14 @@ bool Slides::advance(SandSurface& surface, std::uint64_t steps) {
   return atRest();
 }
 
+void Slides::stop() noexcept {
+  for (std::size_t n = position_; n < now_.size(); ++n) waiting_.erase(now_[n]);
+  for (const TriangleId t : next_) waiting_.erase(t);
+  now_.clear();
+  next_.clear();
+  position_ = 0;
+}
+
 void Slides::look(SandSurface& surface, TriangleId t) {
   Face face = surface.unweighedFace(t);
   const double slope = slopeOf(face, surface.step());
@@ -72,7 +81,10 @@ void Slides::look(SandSurface& surface, TriangleId t) {
   const auto bears = [](const FaceCorner& corner) { return corner.loose > kBareTicks; };
   if (std::none_of(face.begin(), face.end(), bears)) return;
   const std::array<VertexId, 3> corners = surface.mesh().corners(t);
-  for (std::size_t i = 0; i < 3; ++i) face[i].weight = surface.weight(corners[i], stars_[i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    face[i].weight = surface.weight(corners[i], stars_[i]);
+    face[i].isFixed = surface.isFixed(corners[i]);
+  }
   const auto move = slideFace(face, repose_, surface.step(), surface.ledger());
   if (!move || (slope > repose_.divide && divideEdges(surface, t, face))) return;
   surface.apply(t, face, *move, stars_);

@@ -47,11 +47,13 @@ class Slides {
   void add(TriangleId t) {
     if (waiting_.insert(t)) next_.push_back(t);
   }
-  /// All triangles at a vertex.
+  /// All triangles at a vertex; where it is fixed, none: one that can slide has others.
   void addAround(const SandSurface& surface, VertexId v);
   /// All triangles there are.
   void addAll(const SandSurface& surface);
 
+  /// Whatever waits lies still, however steep, until it is added again.
+  void stop() noexcept;
   bool atRest() const noexcept { return position_ == now_.size() && next_.empty(); }
   /// Takes at most so many steps. True: all is at rest.
   bool advance(SandSurface& surface, std::uint64_t steps);

@@ -325,7 +325,7 @@ double Stamper::collectBerm(const SandSurface& surface, const ToolShape& tool, c
     const double beyond = std::max(distance - tool.reach(), 0.0);
     const double ahead = !directed || distance == 0.0 ? 1.0 : kBeside + at.x / distance;
     const double near = width > 0.0 ? 1.0 - beyond / width : beyond > 0.0 ? 0.0 : 1.0;
-    share_.push_back(std::max(near, 0.0) * std::clamp(ahead, 0.0, 1.0));
+    share_.push_back(surface.isFixed(v) ? 0.0 : std::max(near, 0.0) * std::clamp(ahead, 0.0, 1.0));
     if (share_.back() > 0.0) {
       const std::int64_t weight = surface.weight(v);
       weights += share_.back() * static_cast<double>(weight);

@@ -274,9 +274,23 @@ class GreedyInsertion {
   std::vector<TriangleId> taken_;
 };
 
+/// Along all four sides, once around.
+void insertBorder(ConstHeightView grid, Triangulation& mesh, int shift) {
+  const std::int32_t east = grid.columns() - 1, north = grid.rows() - 1;
+  TriangleId near = kNoTriangle;
+  const auto insert = [&](std::int32_t x, std::int32_t y) {
+    near = mesh.triangleAt(mesh.insert({x << shift, y << shift}, grid(x, y), near).vertex);
+  };
+  for (std::int32_t x = 1; x < east; ++x) insert(x, 0);
+  for (std::int32_t y = 1; y < north; ++y) insert(east, y);
+  for (std::int32_t x = east - 1; x > 0; --x) insert(x, north);
+  for (std::int32_t y = north - 1; y > 0; --y) insert(0, y);
+}
+
 }  // namespace
 
-Result<Triangulation> approximateGrid(ConstHeightView grid, const LatticeFrame& frame, double maxError) {
+Result<Triangulation> approximateGrid(ConstHeightView grid, const LatticeFrame& frame, double maxError,
+                                      GridBorder border) {
   const int columns = grid.columns(), rows = grid.rows();
   const int shift = shiftOf(frame, columns, rows);
   if (shift < 0) {
@@ -301,6 +315,7 @@ Result<Triangulation> approximateGrid(ConstHeightView grid, const LatticeFrame& 
   for (VertexId v = 0; v < 4; ++v) {
     mesh.setHeight(v, grid(mesh.point(v).x >> shift, mesh.point(v).y >> shift));
   }
+  if (border == GridBorder::all) insertBorder(grid, mesh, shift);
   // What rounding adds to a distance: a few ulp of the largest height.
   const double ofFloat = 0x1p-21 * largest, ofDouble = 0x1p-49 * largest;
   if (maxError > 64.0 * ofFloat) {

@@ -120,7 +120,35 @@ Location Triangulation::walk(LatticePoint p, TriangleId start) const noexcept {
 
 Location Triangulation::locate(LatticePoint p, TriangleId hint) const noexcept {
   assert(frame_.contains(p));
-  return walk(p, startFor(p, hint));
+  const Location found = walk(p, startFor(p, hint));
+  if (found.kind == Location::Kind::face) return found;
+  const std::array<VertexId, 3>& corner = corners(found.triangle);
+  if (found.kind == Location::Kind::vertex) {
+    const Link star = mesh_.star(corner[found.corner]);
+    return {found.kind, star.triangle(), star.side()};
+  }
+  const Link side = leftOf(Link(found.triangle, found.corner));
+  return {found.kind, side.triangle(), side.side()};
+}
+
+/// Of the two sides that are one edge the one on the left on the way from its more western (southern) end.
+Link Triangulation::leftOf(Link side) const noexcept {
+  const std::array<VertexId, 3>& corner = corners(side.triangle());
+  const LatticePoint from = point(corner[following(side.side())]), to = point(corner[preceding(side.side())]);
+  const Link over = mesh_.across(side);
+  if (over.isOutside() || from.x < to.x || (from.x == to.x && from.y < to.y)) return side;
+  return Link(over.triangle(), over.side());
+}
+
+void Triangulation::turn(TriangleId t, VertexId first) noexcept {
+  const TriangleMesh::Triangle before = mesh_.triangle(t);
+  int side = 0;
+  while (before.vertex[side] != first) ++side;
+  for (int n = 0; n < 3; ++n, side = following(side)) {
+    mesh_.triangle(t).vertex[n] = before.vertex[side];
+    mesh_.join(Link(t, n), before.link[side]);
+    mesh_.setStar(before.vertex[side], Link(t, n));
+  }
 }
 
 VertexId Triangulation::vertexAt(LatticePoint p, TriangleId hint) const noexcept {
@@ -193,14 +221,14 @@ class StarSearch {
 
 }  // namespace
 
-/// A side of a triangle between a and b, or outside. Looks at both ends in turn: O(the smaller number of
+/// leftOf() the edge between a and b, or outside. Looks at both ends in turn: O(the smaller number of
 /// neighbours).
 Link Triangulation::findEdge(VertexId a, VertexId b) const noexcept {
   StarSearch atA(mesh_, a, b);
   StarSearch atB(mesh_, b, a);
   do {
-    if (const Link side = atA.found(); !side.isOutside()) return side;
-    if (const Link side = atB.found(); !side.isOutside()) return side;
+    if (const Link side = atA.found(); !side.isOutside()) return leftOf(side);
+    if (const Link side = atB.found(); !side.isOutside()) return leftOf(side);
   } while (atA.advance() && atB.advance());
   return Link::outside();
 }

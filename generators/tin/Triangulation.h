@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "teren/Result.h"
@@ -54,16 +53,15 @@ struct Insertion {
 /// constrained edge; arrays grow by an eighth. Below, k is the number of neighbours of the vertex at hand, 6
 /// on average.
 ///
-/// Ids: those of living vertices and triangles are stable, except that an operation may change any triangle
-/// it reports. The id of a removed vertex is given out again. Const functions may run in several threads at
-/// once while no other runs. A copy goes on recording changes into the same list. A broken precondition is an
-/// assert.
+/// Ids of living vertices and triangles are stable, except that an operation may change any triangle it
+/// reports. A removed vertex's is given out again. Const functions may run in several threads at once while
+/// no other runs. A copy goes on recording changes into the same list. A broken precondition is an assert.
 class Triangulation {
  public:
   /// Four vertices, 0 ... 3 from south-west counter-clockwise, at `height` [m]. Sides of 1 ... kLatticeSide.
   explicit Triangulation(const LatticeFrame& frame, double height = 0.0);
 
-  /// Sets room aside for so many vertices in all, exactly.
+  /// Room for so many vertices in all, exactly.
   void reserve(std::size_t vertices);
 
   const LatticeFrame& frame() const noexcept { return frame_; }
@@ -126,7 +124,8 @@ class Triangulation {
     table_.forEach(visit);
   }
 
-  /// What lies at p, which must be in the box. The search starts at the hint, any id, or from the jump grid,
+  /// What lies at p, which must be in the box; on an edge, the triangle left of the way from its western (or
+  /// southern) end; at a vertex triangleAt(). The search starts at the hint, any id, or from the jump grid,
   /// whichever is nearer, and walks: O(1) expected for points that are spread, O(sqrt(n)) at worst in
   /// practice.
   Location locate(LatticePoint p, TriangleId hint = kNoTriangle) const noexcept;
@@ -171,8 +170,11 @@ class Triangulation {
   bool unconstrain(VertexId a, VertexId b);
   /// The id of the constrained edge between two vertices.
   std::optional<std::uint32_t> constraint(VertexId a, VertexId b) const noexcept;
-  /// True where an edge joins the two.
   bool isEdge(VertexId a, VertexId b) const noexcept { return !findEdge(a, b).isOutside(); }
+
+  /// Names a triangle's corners from this one on, and makes it the first that is found at them: so a mesh's
+  /// order can be made independent of how it came about.
+  void turn(TriangleId t, VertexId first) noexcept;
 
   /// From now on every operation appends each triangle it takes away and each it makes, in order, to the
   /// list; nullptr: to none. A triangle may come and go within one operation. So the change of any integral
@@ -201,19 +203,16 @@ class Triangulation {
     Rim rim;
     std::int64_t x = 0;  // [steps] from the removed vertex
     std::int64_t y = 0;
-    std::uint32_t before = 0;  // its neighbours among the corners that are left
-    std::uint32_t after = 0;
-    double time = 0.0;  // when its ear is due; infinite where it may not be cut
+    std::uint32_t before = 0, after = 0;  // its neighbours among the corners that are left
+    double time = 0.0;                    // when its ear is due; infinite where it may not be cut
   };
 
   struct Edge {
-    VertexId a = kNoVertex;
-    VertexId b = kNoVertex;
+    VertexId a = kNoVertex, b = kNoVertex;
   };
   /// A way that is yet to be made of constrained edges.
   struct Piece {
-    VertexId a = kNoVertex;
-    VertexId b = kNoVertex;
+    VertexId a = kNoVertex, b = kNoVertex;
     std::uint32_t id = 0;
     bool bends = false;  // came of a crossing, and is rounded anyway
   };
@@ -240,6 +239,7 @@ class Triangulation {
   // Triangulation.cpp
   TriangleId startFor(LatticePoint p, TriangleId hint) const noexcept;
   Location walk(LatticePoint p, TriangleId start) const noexcept;
+  Link leftOf(Link side) const noexcept;
   Link findEdge(VertexId a, VertexId b) const noexcept;
   void rebuildGrid();
 

@@ -46,8 +46,20 @@ void divide(Patchwork& patchwork, const PatchworkNode& node) {
   }
 }
 
-std::shared_ptr<const Scene> mixedScene() {
+/// Every vertex may move, a few metres, and beyond 200 m all do.
+Patchwork movable() {
   Patchwork patchwork(kIntervals, kSpacing, hills);
+  patchwork.letMove([](std::int64_t column, std::int64_t row) { return hills(column, row) + 3.0F; },
+                    [](std::int64_t, std::int64_t) { return 0; },
+                    Morph(0.01, std::vector<double>{0.0, 100.0}));
+  return patchwork;
+}
+
+/// In the middle, as high as an aircraft.
+constexpr DetailEye kEye{{}, 300.0};
+
+std::shared_ptr<const Scene> mixedScene() {
+  Patchwork patchwork = movable();
   for (const std::int64_t x : {-2048, 0}) {
     for (const std::int64_t y : {-2048, 0}) divide(patchwork, PatchworkNode{x, y, 6});
   }
@@ -56,7 +68,7 @@ std::shared_ptr<const Scene> mixedScene() {
 
 /// 8 km of one level.
 std::shared_ptr<const Scene> evenScene(int level) {
-  Patchwork patchwork(kIntervals, kSpacing, hills);
+  Patchwork patchwork = movable();
   const std::int64_t side = std::int64_t{kIntervals} << level, nodes = 4096 / side;
   patchwork.addEven({-2048, -2048, level}, static_cast<int>(nodes), static_cast<int>(nodes));
   return patchwork.scene();
@@ -82,9 +94,16 @@ std::vector<Position> raster() {
   return places;
 }
 
-void batched(benchmark::State& state, const std::shared_ptr<const Scene>& scene,
-             const std::vector<Position>& places) {
+/// As the vertices lie, or as an eye sees them.
+enum class Vertices { lying, seen };
+SceneQuery queryOf(const std::shared_ptr<const Scene>& scene, Vertices vertices) {
   const SceneQuery query(scene, kIntervals);
+  return vertices == Vertices::seen ? query.seenFrom(kEye) : query;
+}
+
+void batched(benchmark::State& state, const std::shared_ptr<const Scene>& scene,
+             const std::vector<Position>& places, Vertices vertices) {
+  const SceneQuery query = queryOf(scene, vertices);
   std::vector<DrawnPoint> answers(places.size());
   for (auto _ : state) {
     query.points(places, answers);
@@ -160,8 +179,8 @@ std::vector<Ray> raysOver(const std::vector<Position>& places, Aim aim) {
 }
 
 void firstHits(benchmark::State& state, const std::shared_ptr<const Scene>& scene,
-               const std::vector<Ray>& rays) {
-  const SceneQuery query(scene, kIntervals);
+               const std::vector<Ray>& rays, Vertices vertices) {
+  const SceneQuery query = queryOf(scene, vertices);
   std::vector<RayHit> hits(rays.size());
   for (auto _ : state) {
     query.firstHits(rays, hits);
@@ -250,14 +269,23 @@ int runAll(int argc, char** argv) {
     for (const auto& mesh : scene->meshes()) bytes += mesh->bytes();
     std::printf("%s: %zu meshes, %zu triangles, %zu bytes; the query has %zu\n", name, scene->meshes().size(),
                 scene->triangles(), bytes, SceneQuery(scene, kIntervals).bytes());
-    add("scattered", [&, scene = scene](benchmark::State& state) { batched(state, scene, everywhere); });
-    add("raster", [&, scene = scene](benchmark::State& state) { batched(state, scene, rows); });
+    for (const auto& [how, vertices] : {std::pair{"", Vertices::lying}, {"-seen", Vertices::seen}}) {
+      const auto addBatch = [&](const char* what, const std::vector<Position>& places) {
+        add(std::string(what) + how, [&places, scene = scene, vertices = vertices](benchmark::State& state) {
+          batched(state, scene, places, vertices);
+        });
+      };
+      addBatch("scattered", everywhere);
+      addBatch("raster", rows);
+    }
     add("single", [&, scene = scene](benchmark::State& state) { single(state, scene, everywhere); });
     add("every-mesh", [&, scene = scene](benchmark::State& state) { everyMesh(state, scene, everywhere); });
     for (const auto& [what, aim] :
          {std::pair{"down", Aim::down}, {"mouse", Aim::mouse}, {"graze", Aim::graze}}) {
       const std::vector<Ray> rays = raysOver(everywhere, aim);
-      add(what, [=](benchmark::State& state) { firstHits(state, scene, rays); });
+      add(what, [=](benchmark::State& state) { firstHits(state, scene, rays, Vertices::lying); });
+      add(std::string(what) + "-seen",
+          [=](benchmark::State& state) { firstHits(state, scene, rays, Vertices::seen); });
     }
     add("every-triangle", [scene = scene, rays = raysOver(everywhere, Aim::mouse)](benchmark::State& state) {
       everyTriangle(state, scene, rays);
@@ -280,6 +308,13 @@ int runAll(int argc, char** argv) {
                 1e3 * reporter.median(std::string("raster") + name) / places,
                 1e3 * reporter.median(std::string("single") + name) / places,
                 1e3 * reporter.median(std::string("every-mesh") + name) / 64.0);
+    std::printf("a place as an eye sees it, ns%s: scattered %.1f, raster %.1f\n", name,
+                1e3 * reporter.median(std::string("scattered-seen") + name) / places,
+                1e3 * reporter.median(std::string("raster-seen") + name) / places);
+    std::printf("a ray as an eye sees the ground, us%s: down %.2f, mouse %.2f, graze %.2f\n", name,
+                reporter.median(std::string("down-seen") + name) / 4096.0,
+                reporter.median(std::string("mouse-seen") + name) / 4096.0,
+                reporter.median(std::string("graze-seen") + name) / 4096.0);
     std::printf("a ray, us%s: down %.2f, mouse %.2f, graze %.2f, every triangle %.0f\n", name,
                 reporter.median(std::string("down") + name) / 4096.0,
                 reporter.median(std::string("mouse") + name) / 4096.0,

@@ -63,7 +63,7 @@ double leftOut(const HandMade& plan, double lowest, double highest, std::uint64_
                  y = uniform(random, 2.0, plan.side * plan.intervals - 2.0);
     const SbVec3d eye(x * kSpacing, y * kSpacing, plan.height(x, y) + uniform(random, lowest, highest));
     std::vector<const Mesh*> seen = meshesOf(*scene);
-    horizon.leaveOutHidden(seen, placement, eye, 0.5);
+    horizon.leaveOutHidden(seen, *scene, {}, placement, eye, 0.5);
     for (const auto& mesh : scene->meshes()) {
       if (std::find(seen.begin(), seen.end(), mesh.get()) != seen.end()) continue;
       ++meshes;
@@ -109,7 +109,8 @@ TEST(GroundHorizon, KeepsTheOrderOfTheOthers) {
   std::reverse(meshes.begin(), meshes.end());
   const std::vector<const Mesh*> all = meshes;
   GroundHorizon horizon;
-  horizon.leaveOutHidden(meshes, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, SbVec3d(100.0, 120.0, 60.0), 0.5);
+  horizon.leaveOutHidden(meshes, *scene, {}, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, SbVec3d(100.0, 120.0, 60.0),
+                         0.5);
   EXPECT_LT(meshes.size(), all.size());
   auto at = all.begin();
   for (const Mesh* mesh : meshes) {
@@ -124,8 +125,8 @@ TEST(GroundHorizon, LeavesOutNothingWhereTheNearPlaneMayCutAwayWhatHides) {
   GroundHorizon horizon;
   const SbVec3d eye(100.0, 120.0, 60.0);
   std::vector<const Mesh*> near = meshesOf(*scene), cut = near;
-  horizon.leaveOutHidden(near, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 0.5);
-  horizon.leaveOutHidden(cut, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 40.0);
+  horizon.leaveOutHidden(near, *scene, {}, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 0.5);
+  horizon.leaveOutHidden(cut, *scene, {}, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 40.0);
   EXPECT_LT(near.size(), scene->meshes().size());
   EXPECT_EQ(cut.size(), scene->meshes().size());
 }
@@ -145,18 +146,37 @@ TEST(GroundHorizon, CountsOnNoHeightThatAVertexMayLose) {
       moved.push_back(std::move(copy));
     }
     GroundHorizon horizon;
-    horizon.leaveOutHidden(meshes, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 0.5);
+    horizon.leaveOutHidden(meshes, *scene, {}, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 0.5);
     return meshes.size();
   };
   EXPECT_LT(drawn(60.0F), scene->meshes().size());
   EXPECT_EQ(drawn(0.0F), scene->meshes().size());
 }
 
+TEST(GroundHorizon, LeavesOutNothingForAnEyeThatMaySeeTheLandFromBelow) {
+  // A valley behind a high rim in the west, and a slope behind the valley.
+  const auto valley = [](double x, double) { return x < 24.0 ? 100.0 : std::max(0.0, 0.5 * (x - 120.0)); };
+  const auto scene =
+      makeScene({.side = kSide, .intervals = kIntervals, .spacing = kSpacing, .height = valley});
+  const auto drawn = [&](const SbVec3d& eye) {
+    GroundHorizon horizon;
+    std::vector<const Mesh*> meshes = meshesOf(*scene);
+    horizon.leaveOutHidden(meshes, *scene, {}, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, eye, 0.5);
+    return meshes.size();
+  };
+  const std::size_t all = scene->meshes().size();
+  EXPECT_LT(drawn(SbVec3d(20.0, 150.0, 110.0)), all) << "from the rim, the valley's near side is hidden";
+  EXPECT_EQ(drawn(SbVec3d(20.0, 150.0, 50.0)), all) << "under the rim";
+  EXPECT_EQ(drawn(SbVec3d(-30.0, 150.0, 5.0)), all) << "before it, beyond the land's end";
+  EXPECT_EQ(drawn(SbVec3d(-30.0, 150.0, 110.0)), all) << "where a lower line may begin under the rim";
+}
+
 TEST(GroundHorizon, SeesAllOfAPlain) {
   const auto scene = makeScene({.side = kSide, .intervals = kIntervals, .spacing = kSpacing});
   GroundHorizon horizon;
   std::vector<const Mesh*> seen = meshesOf(*scene);
-  horizon.leaveOutHidden(seen, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, SbVec3d(100.0, 120.0, 3.0), 0.5);
+  horizon.leaveOutHidden(seen, *scene, {}, {SbVec3d(0.0, 0.0, 0.0), kSpacing}, SbVec3d(100.0, 120.0, 3.0),
+                         0.5);
   EXPECT_EQ(seen.size(), scene->meshes().size());
 }
 

@@ -7,7 +7,9 @@
 #include <set>
 #include <vector>
 
+#include <Inventor/SoPickedPoint.h>
 #include <Inventor/actions/SoGLRenderAction.h>
+#include <Inventor/actions/SoRayPickAction.h>
 #include <Inventor/nodes/SoCallback.h>
 #include <Inventor/nodes/SoDirectionalLight.h>
 #include <Inventor/nodes/SoDrawStyle.h>
@@ -19,6 +21,7 @@
 
 #include "teren/Engine.h"
 #include "teren/Hash.h"
+#include "teren/SceneQuery.h"
 
 #include "coin/SoTerrain.h"
 #include "coin/TerrainLook.h"
@@ -111,11 +114,11 @@ TEST(Picture, ShowsWhatIsNotUploadedYetAllTheSame) {
   EXPECT_EQ(first, last);
 }
 
-TEST(Picture, TheGroundsTextureStaysInItsPlaceUnderAMovingEyeAndRepeatsAfter1024Samples) {
+TEST(Picture, TheGroundsTextureStaysInItsPlaceUnderAMovingEyeAndRepeatsAfter1024Grains) {
   const Stage stage;
   stage.terrain->waterLevel = -2e6F;
   stage.terrain->viewDistance = 500.0F;
-  stage.terrain->setScene(makeScene({.side = 16, .intervals = 128, .spacing = 0.5}));
+  stage.terrain->setScene(makeScene({.side = 18, .intervals = 64}));
   OffscreenView view(64, 64);
   const auto at = [&](float metres) {
     stage.look(SbVec3f(100.0F + metres, 100.0F + metres, 40.0F), 0.0, -90.0);
@@ -126,7 +129,7 @@ TEST(Picture, TheGroundsTextureStaysInItsPlaceUnderAMovingEyeAndRepeatsAfter1024
   ASSERT_EQ(backgroundPixels(here), 0);
   for (const float metres : {0.5F, 1.0F, 150.0F})
     EXPECT_NE(at(metres), here) << "it moves along with the eye";
-  EXPECT_EQ(at(512.0F), here);
+  EXPECT_EQ(at(2048.0F), here);
 }
 
 /// The largest difference of a colour between two pictures.
@@ -142,14 +145,16 @@ int mostDifferent(const QImage& a, const QImage& b) {
   return most;
 }
 
-/// Level ground at a height, seen from some metres above it.
-QImage levelGround(OffscreenView& view, double height, double above, float waterLevel) {
+/// Level ground of 64 m at a height, seen from some metres above it.
+QImage levelGround(OffscreenView& view, double height, double above, float waterLevel, int intervals = 32) {
   const Stage stage;
   stage.terrain->viewDistance = 1e5F;
   stage.terrain->waterLevel = waterLevel;
   stage.camera->farDistance = 1e5F;
-  stage.terrain->setScene(
-      makeScene({.side = 1, .intervals = 32, .height = [height](double, double) { return height; }}));
+  stage.terrain->setScene(makeScene(
+      {.side = 1, .intervals = intervals, .spacing = 64.0 / intervals, .height = [height](double, double) {
+         return height;
+       }}));
   stage.look(SbVec3f(32.0F, 32.0F, static_cast<float>(height + above)), 0.0, -90.0);
   stage.camera->heightAngle = static_cast<float>(2.0 * std::atan(25.0 / above));
   view.draw(stage.root, kMagenta);  // uploads
@@ -158,11 +163,20 @@ QImage levelGround(OffscreenView& view, double height, double above, float water
 
 TEST(Picture, LosesTheGroundsDetailBeforeItIsLeftOut) {
   OffscreenView view(128, 128);
-  const double ends = 2.0 * kDetailEnds;
+  const double ends = kDetailEnds;
   const QImage last = levelGround(view, 100.0, ends - 0.5, -1e6F),
                none = levelGround(view, 100.0, ends + 0.5, -1e6F);
   EXPECT_LE(mostDifferent(last, none), 2);
   EXPECT_GT(mostDifferent(none, levelGround(view, 100.0, 0.4 * ends, -1e6F)), 20);
+}
+
+TEST(Picture, HasPatternsAsLargeOnAFinerLattice) {
+  OffscreenView view(128, 128);
+  for (const float waterLevel : {-1e6F, 100.5F}) {
+    const QImage usual = levelGround(view, 100.0, 60.0, waterLevel);
+    EXPECT_LE(mostDifferent(usual, levelGround(view, 100.0, 60.0, waterLevel, 128)), 2) << waterLevel;
+    EXPECT_GT(mostDifferent(usual, usual.mirrored(true, false)), 10) << "or there is nothing to see";
+  }
 }
 
 TEST(Picture, ComputesSnowAndShoresFromWhereTheyMayBegin) {
@@ -534,6 +548,72 @@ TEST(Picture, OfVerticesThatDrawNearIsTheirOwnUntilTheErrorAllowsMoreAndThenTheC
   const QImage unmoved = other.picture(stage.root, kMagenta);
   picture(makeScene(rough));
   EXPECT_EQ(differing(other.picture(stage.root, kMagenta), unmoved, 0), 0) << "without shaders nothing moves";
+}
+
+TEST(Picture, OfVerticesThatDrawNearIsPickedWhereItIsSeen) {
+  const Stage stage;
+  stage.terrain->waterLevel = -1e6F;
+  const HandMade rough{.side = 8, .intervals = 32, .spacing = 1.0, .height = hill};
+  const HandMade smooth{.side = 8, .intervals = 32, .spacing = 1.0, .height = [](double x, double y) {
+                          return 20.0 + 0.05 * x - 0.02 * y;
+                        }};
+  const std::vector<double> errors{0.0, 0.0, 0.0, 1.0, 2.0};
+  const Morph morph(0.01, errors), twice(0.02, errors);
+  stage.terrain->setScene(drawingNear(rough, smooth, morph));
+  const SceneQuery lying(stage.terrain->scene(), rough.intervals);
+  const SbVec3f from(128.0F, -60.0F, 90.0F);
+  stage.look(from, 0.0, -30.0);
+  const auto eyeAt = [&](const SbVec3f& place) {
+    return DetailEye{
+        *Position::fromMetres(static_cast<double>(place[0]), static_cast<double>(place[1]), 32.0),
+        static_cast<double>(place[2])};
+  };
+  int picked = 0;
+  // [m] By how much picks miss the ground of a query at most.
+  const auto miss = [&](const SceneQuery& query) {
+    RandomSequence random(31);
+    double most = 0.0;
+    picked = 0;
+    for (int k = 0; k < 100; ++k) {
+      SbVec3f way(static_cast<float>(unit(random) - 0.5), 1.0F,
+                  static_cast<float>(-0.1 - 0.6 * unit(random)));
+      way.normalize();
+      SoRayPickAction action(SbViewportRegion(320, 200));
+      action.setRay(from, way, 0.0F, 1000.0F);
+      action.apply(stage.root);
+      const SoPickedPoint* point = action.getPickedPoint();
+      const Ray ray{.from = eyeAt(from).position,
+                    .height = eyeAt(from).height,
+                    .direction = {static_cast<double>(way[0]), static_cast<double>(way[1]),
+                                  static_cast<double>(way[2])}};
+      RayHit hit;
+      query.firstHits({&ray, 1}, {&hit, 1});
+      if (point == nullptr || hit.end != RayEnd::ground) continue;
+      ++picked;
+      most = std::max(most, std::fabs(static_cast<double>((point->getPoint() - from).length()) - hit.way));
+    }
+    return most;
+  };
+  EXPECT_LT(miss(lying), 2e-3) << "before there is a picture";
+  EXPECT_FALSE(stage.terrain->movedWith().has_value());
+  OffscreenView view(320, 200);
+  view.picture(stage.root, kMagenta);
+  ASSERT_TRUE(stage.terrain->movedWith().has_value());
+  EXPECT_LT((*stage.terrain->movedWith() - SbVec3d(from)).length(), 1e-4);
+  EXPECT_LT(miss(lying.seenFrom(eyeAt(from))), 2e-3);
+  EXPECT_GT(picked, 70);
+  EXPECT_GT(miss(lying), 1.0) << "moved by metres";
+  const SbVec3f other(300.0F, 200.0F, 50.0F);
+  stage.terrain->setDetailEye(SbVec3d(other), twice);
+  EXPECT_LT(miss(lying.seenFrom(eyeAt(from))), 2e-3) << "as the last picture was";
+  view.picture(stage.root, kMagenta);
+  EXPECT_LT(miss(lying.seenFrom(eyeAt(other), twice)), 2e-3);
+  EXPECT_GT(miss(lying.seenFrom(eyeAt(other))), 0.1) << "moved as another view";
+  const WithoutShaders plain;
+  OffscreenView still(320, 200);
+  still.picture(stage.root, kMagenta);
+  EXPECT_FALSE(stage.terrain->movedWith().has_value());
+  EXPECT_LT(miss(lying), 2e-3) << "without shaders nothing moves";
 }
 
 TEST(DetailByError, HasNoCracksHoweverFarItsVerticesHaveMoved) {

@@ -1,6 +1,6 @@
-// One number for a whole landscape: prints a hash over baked regions, heights, queries and drawn surfaces of
-// two worlds, near and far from the world's zero. tests/same-bits runs it in many ways; the number must never
-// differ (law 1).
+// One number for a whole landscape: prints a hash over baked regions, heights, queries, drawn surfaces and
+// dug ground of two worlds, near and far from the world's zero. tests/same-bits runs it in many ways; the
+// number must never differ (law 1).
 //   landscape-hash [--slice-us N] [--visit-seed N] [--workers N] [--cap-mib N]
 //       slice 0: unlimited; visit seed 0: row by row; the engine's workers; the engine's cap, under which it
 //       must give up some of its view, or this ends with 1 (0, the default: a cap that never matters)
@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "teren/Bake.h"
+#include "teren/EditedGround.h"
 #include "teren/Engine.h"
 #include "teren/Hash.h"
 #include "teren/PluginRegistry.h"
@@ -49,12 +50,15 @@ void add(Fnv1a& hash, Number number) {
   }
 }
 
+void orExit(const teren::Result<void>& result) {
+  if (result) return;
+  std::fprintf(stderr, "landscape-hash: %s\n", result.error().message.c_str());
+  std::exit(1);
+}
+
 template <class T>
 T valueOrExit(teren::Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "landscape-hash: %s\n", result.error().message.c_str());
-    std::exit(1);
-  }
+  if (!result) orExit(result.error());
   return std::move(result).value();
 }
 
@@ -98,6 +102,42 @@ void addRegions(Fnv1a& hash, const World& world, const teren::BakeOptions& optio
       for (const float height : heights.samples()) add(hash, height);
     }
   }
+}
+
+/// Craters over each other, smoothed before they lie still, and sand dug, pushed and heaped among them before
+/// it lies still, here and far away.
+void addEdits(Fnv1a& hash, const std::shared_ptr<const World>& world,
+              const std::shared_ptr<const teren::PluginRegistry>& registry, teren::BakeOptions options) {
+  teren::EditedGround ground(world, teren::deformersOf(registry));
+  const teren::EditWork work{options.slice, [] { return true; }};
+  teren::RandomSequence random(20261122);
+  for (int count = 0; count < 40; ++count) {
+    const auto place = [&](std::int64_t patch) {
+      return static_cast<double>(patch) * world->pitch() + static_cast<double>(random.nextBits(12)) * 0.0625;
+    };
+    teren::Edit edit;
+    edit.kind = "crater";
+    edit.x = place(count % 4 == 3 ? kFar : 0);
+    edit.y = place(count % 4 == 3 ? -kFar : 0);
+    edit.size = 5.0 + static_cast<double>(random.nextBits(5));
+    edit.depth = 4.0;
+    edit.seed = random.next();
+    edit.steps = random.next() % 3;
+    if (count % 3 == 2) edit.parameters = {{"tool", std::string("smooth")}};
+    if (count % 10 >= 6) {
+      edit.kind = "sand";
+      edit.size = std::min(edit.size, 12.0);
+      if (count % 10 == 9) edit.depth = -edit.depth;
+      edit.parameters = {{"tool", std::string(count % 2 == 0 ? "round" : "rake")},
+                         {"push", count % 20 < 10},
+                         {"direction", 9.0 * count}};
+    }
+    orExit(ground.apply(edit, work));
+  }
+  orExit(ground.rest(work));
+  add(hash, ground.hash());
+  options.edits = &ground;
+  addRegions(hash, *world, options);
 }
 
 std::vector<Position> scatteredPositions(const World& world) {
@@ -258,6 +298,7 @@ std::uint64_t landscapeHash(const Trial& trial) {
     addRegions(hash, *world, options);
     addPoints(hash, *world, trial.visitSeed);
     if (drawn) addSurfaces(hash, world, trial);
+    if (drawn) addEdits(hash, world, registry, options);
   }
   addScripts(hash);
   return hash.value();

@@ -11,6 +11,8 @@
 
 namespace teren {
 
+class EditedGround;
+
 /// Level-0 patches (i ... i + columns, j ... j + rows) at a level. With n intervals a patch, i n, j n,
 /// columns n and rows n must be multiples of 2^level; columns and rows >= 1.
 struct BakeRegion {
@@ -29,14 +31,16 @@ struct BakeOptions {
   /// 0: nodes are visited row by row; otherwise in an order shuffled with this seed. The heights do not
   /// depend on it.
   std::uint64_t visitSeed = 0;
+  /// Of the same world, and at rest (assert); null: the world's own ground.
+  const EditedGround* edits = nullptr;
   /// Called by the calling thread between slices, or ten times a second while workers work; returning false
   /// cancels.
   std::function<bool(std::size_t nodesDone, std::size_t nodesWanted)> progress;
 };
 
 /// (columns n / 2^level + 1) x (rows n / 2^level + 1) heights [m] as drawn at that level, rows from south to
-/// north. Refuses regions that break the rule above, lie beyond kMaxPatch or have more than 2^28 samples, and
-/// workers out of range; "cancelled" where progress returned false.
+/// north, edits included. Refuses regions that break the rule above, lie beyond kMaxPatch or have more than
+/// 2^28 samples, and workers out of range; "cancelled" where progress returned false.
 Result<HeightMap> bake(const World& world, const BakeRegion& region, const BakeOptions& options = {});
 
 }  // namespace teren

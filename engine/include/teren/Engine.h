@@ -7,9 +7,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "teren/GroundEdits.h"
 #include "teren/Object.h"
 #include "teren/Position.h"
 #include "teren/Scene.h"
@@ -22,8 +24,10 @@ namespace teren {
 /// Detail by the error a person sees: the land is coarser the farther away it is, to the horizon.
 struct DetailSettings {
   /// [px] kLeastError ... kMostError: how far what is drawn may be from the level-0 surface on the screen.
-  /// Half of it takes about four times the triangles.
-  double pixelError = 2.0;
+  /// The bound is an upper one: by default 99 of 100 places of the world shipped are off by less than 2 px.
+  /// Half of it takes up to three times the triangles; the default is the smallest that needs no more than
+  /// 10^6 for 10 km of that world (`teren report`, table detail).
+  double pixelError = 8.0;
   static constexpr double kLeastError = 0.1, kMostError = 100.0;
   double distance = 10'000.0;  ///< [m] more than 0, at most kMostDistance: how far the land is drawn
   static constexpr double kMostDistance = 1e6;
@@ -72,8 +76,9 @@ struct EngineFigures {
   std::vector<std::size_t> nodesAtLevel;  ///< in the scene, from level 0 on
   std::size_t pending = 0;                ///< nodes wanted and not there yet
   /// With detail by error: nothing is pending, and updates measure how wrong nodes are, as long as levels are
-  /// left of which that is not known and there is room under the cap. Who lets updates rest while nothing is
-  /// pending should go on meanwhile: then the detail is chosen anew.
+  /// left of which that is not known and there is room under the cap. In any view: what was replaced last is
+  /// still to be freed. Who lets updates rest while nothing is pending should go on meanwhile: then the
+  /// detail is chosen anew.
   bool measuring = false;
   std::size_t unfinishedTasks = 0;         ///< given to workers (or to later slices), at this moment
   std::uint64_t slices = 0;                ///< begun since the engine was made
@@ -104,10 +109,17 @@ class Engine {
   Object& object(std::size_t index) noexcept;
   /// Draws land around this object too while it is not the active one, as finely as `detail` says, from the
   /// next update on; empty: no longer. All views together are one scene, which is as fine everywhere as any
-  /// of them wants there, and share the cap: under it the pixel errors of all grow alike. Only of an engine
-  /// made with detail by error; refuses what create() would refuse, an object that is not there, and more
-  /// than kMostViews. Costs what the nodes of the view cost. takeObjects() ends them all.
+  /// of them wants there, and share the cap: under it the pixel errors of all grow alike. A picture of such a
+  /// view moves its vertices with this object's eye and morph(object), not with Scene::morph(), which is the
+  /// active object's. Only of an engine made with detail by error; refuses what create() would refuse, an
+  /// object that is not there, and more than kMostViews at once (another active object may make it one more).
+  /// Costs what the nodes of the view cost. takeObjects() ends them all.
   Result<void> setView(std::size_t object, const std::optional<DetailSettings>& detail);
+  /// How the vertices of the latest snapshot move in a picture from this object's eye: for the pixel error of
+  /// its view; of an object without one, as the snapshot says. Where the land is finer than this view asks
+  /// for, because another does, vertices have gone all of the way to the coarser surface: it looks at
+  /// least as fine as asked for, and no picture is more wrong than its own pixel error for sharing the scene.
+  Morph morph(std::size_t object) const noexcept;
   static constexpr std::size_t kMostViews = 16;  ///< the active object's included
   std::size_t active() const noexcept;
   /// The object active before lets go of its keys.
@@ -131,14 +143,16 @@ class Engine {
   /// The latest snapshot, never null.
   std::shared_ptr<const Scene> scene() const noexcept;
 
-  /// Heights, normals and rays on the latest snapshot, never null; any thread may ask it. Made when it, or
-  /// one of the heights below, is first asked for after a snapshot was published: a tenth of a microsecond a
-  /// mesh.
+  /// Heights, normals and rays on the latest snapshot, its vertices as they lie, never null; any thread may
+  /// ask it. SceneQuery::seenFrom makes of it what an eye sees. Made when it is first asked for after a
+  /// snapshot was published: a microsecond for each mesh that has come since it was last asked for, however
+  /// many snapshots ago that was, and a tenth of that for each of the others.
   std::shared_ptr<const SceneQuery> sceneQuery() const;
 
-  /// [m] The triangles of the scene at a position, before their vertices are moved (Morph.h): on the screen
-  /// they are off by less than the pixel error wanted. Empty where nothing is drawn, and, like the next two,
-  /// for a position that is not valid().
+  /// [m] The triangles on the screen at a position: those of the scene, moved (Morph.h) as the active object
+  /// sees them from where it was at the end of the last update. Empty where nothing is drawn, and, like the
+  /// next two, for a position that is not valid(). Looked up in the engine, without sceneQuery(): in less
+  /// than a microsecond, and where levels meet in O(triangles of one border).
   std::optional<double> drawnHeight(const Position& position) const;
   /// [m] The level-0 triangles at a position, as they are kept under objects: World::query's `drawn`, bit for
   /// bit. Empty where they are not there.
@@ -150,6 +164,14 @@ class Engine {
 
   /// Sentences since the last call about plugins (World::takeMessages) and objects that misbehaved.
   std::vector<std::string> takeMessages();
+
+  /// From the next update on the ground is the world's with these edits, wherever it is drawn or asked for.
+  /// `changed`: boxes with all samples that differ from the ground so far. What was changed once stays among
+  /// the changed samples of all edits to come, with whatever height. All that is drawn changes at once, as
+  /// soon as its meshes are made anew: nothing opens, and land beside it waits for it. Costs about a
+  /// microsecond of the updates to come for each node held over the boxes, and a mesh, or several, for each
+  /// one drawn there; counted under the cap, but never freed.
+  void setEdits(std::shared_ptr<const GroundEdits> edits, std::span<const SampleBox> changed);
 
   /// Bytes the renderer holds for this engine's scenes (vertex buffers): counted under the cap. Call when
   /// they change.

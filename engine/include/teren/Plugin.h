@@ -9,12 +9,26 @@
 #include <Eigen/Core>
 
 #include "teren/ContinuousGenerator.h"
+#include "teren/Deformer.h"
 #include "teren/Filter.h"
 #include "teren/Generator.h"
 
 namespace teren {
 
-enum class PluginKind : std::uint32_t { generator = 1, filter = 2 };
+enum class PluginKind : std::uint32_t { generator = 1, filter = 2, deformer = 3 };
+
+/// The kind's name in sentences and listings; "plugin of unknown kind" for a value that is none.
+constexpr const char* kindName(PluginKind kind) noexcept {
+  switch (kind) {
+    case PluginKind::generator:
+      return "generator";
+    case PluginKind::filter:
+      return "filter";
+    case PluginKind::deformer:
+      return "deformer";
+  }
+  return "plugin of unknown kind";
+}
 
 /// One fact about how a module was compiled. The engine refuses a module when one of its words differs from
 /// the engine's own, and names the word.
@@ -24,7 +38,7 @@ struct AbiWord {
 };
 
 /// Raised whenever a type in engine/include/teren that crosses the boundary changes its layout or meaning.
-inline constexpr std::uint64_t kPluginInterfaceVersion = 2;
+inline constexpr std::uint64_t kPluginInterfaceVersion = 3;
 
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr std::uint64_t kSanitizerWord = 1;
@@ -54,6 +68,8 @@ constexpr AbiWord kAbiWords[] = {
     {"size of Values", sizeof(Values)},
     {"size of MapRequest", sizeof(MapRequest)},
     {"size of FieldRequest", sizeof(FieldRequest)},
+    {"size of DeformRegion", sizeof(DeformRegion)},
+    {"size of Stamp", sizeof(Stamp)},
     {"run-time type information", kTypeInformationWord},
     {"sanitizer", kSanitizerWord},
 };
@@ -70,9 +86,10 @@ struct PluginDescription {
   const char* version;
   const char* doc;  ///< one line
   std::span<const Parameter> (*parameters)() noexcept;
-  /// One of the two, by kind; may throw, the engine catches.
+  /// One of the three, by kind; may throw, the engine catches.
   std::unique_ptr<Generator> (*makeGenerator)(const Values&);
   std::unique_ptr<Filter> (*makeFilter)(const Values&);
+  std::unique_ptr<Deformer> (*makeDeformer)();
 };
 
 inline constexpr std::uint64_t kPluginMagic = 0x5445'5245'4e50'4c47ULL;  // "TERENPLG"
@@ -84,26 +101,36 @@ std::unique_ptr<Base> makePlugin(const Values& values) {
   return std::make_unique<Class>(values);
 }
 
+template <class Class>
+std::unique_ptr<Deformer> makeDeformerPlugin() {
+  return std::make_unique<Class>();
+}
+
 }  // namespace teren
 
-#define TEREN_PLUGIN_ENTRY_(kind_, Class, id_, version_, doc_, makeGenerator_, makeFilter_)         \
-  extern "C" __attribute__((visibility("default"))) const teren::PluginDescription* terenPlugin() { \
-    static const teren::PluginDescription description = {teren::kPluginMagic,                       \
-                                                         std::size(teren::kAbiWords),               \
-                                                         teren::kAbiWords,                          \
-                                                         teren::PluginKind::kind_,                  \
-                                                         id_,                                       \
-                                                         version_,                                  \
-                                                         doc_,                                      \
-                                                         &Class::parameters,                        \
-                                                         makeGenerator_,                            \
-                                                         makeFilter_};                              \
-    return &description;                                                                            \
+#define TEREN_PLUGIN_ENTRY_(kind_, Class, id_, version_, doc_, makeGenerator_, makeFilter_, makeDeformer_) \
+  extern "C" __attribute__((visibility("default"))) const teren::PluginDescription* terenPlugin() {        \
+    static const teren::PluginDescription description = {teren::kPluginMagic,                              \
+                                                         std::size(teren::kAbiWords),                      \
+                                                         teren::kAbiWords,                                 \
+                                                         teren::PluginKind::kind_,                         \
+                                                         id_,                                              \
+                                                         version_,                                         \
+                                                         doc_,                                             \
+                                                         &Class::parameters,                               \
+                                                         makeGenerator_,                                   \
+                                                         makeFilter_,                                      \
+                                                         makeDeformer_};                                   \
+    return &description;                                                                                   \
   }
 
 /// Makes a module's entry point; once per module, at global scope.
 #define TEREN_GENERATOR_PLUGIN(Class, id, version, doc)                                                  \
   TEREN_PLUGIN_ENTRY_(generator, Class, id, version, doc, (&teren::makePlugin<Class, teren::Generator>), \
+                      nullptr, nullptr)
+#define TEREN_FILTER_PLUGIN(Class, id, version, doc)                                                        \
+  TEREN_PLUGIN_ENTRY_(filter, Class, id, version, doc, nullptr, (&teren::makePlugin<Class, teren::Filter>), \
                       nullptr)
-#define TEREN_FILTER_PLUGIN(Class, id, version, doc) \
-  TEREN_PLUGIN_ENTRY_(filter, Class, id, version, doc, nullptr, (&teren::makePlugin<Class, teren::Filter>))
+#define TEREN_DEFORMER_PLUGIN(Class, id, version, doc)                     \
+  TEREN_PLUGIN_ENTRY_(deformer, Class, id, version, doc, nullptr, nullptr, \
+                      (&teren::makeDeformerPlugin<Class>))

@@ -1,4 +1,4 @@
-// Finds, checks and loads plugin modules, and makes generators and filters by id.
+// Finds, checks and loads plugin modules, and makes generators, filters and deformers by id.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "teren/Deformer.h"
 #include "teren/Filter.h"
 #include "teren/Generator.h"
 #include "teren/Parameter.h"
@@ -92,6 +93,9 @@ class PluginRegistry {
                                                          std::span<const Values::Entry> entries) const;
   Result<std::shared_ptr<const Filter>> makeFilter(std::string_view id,
                                                    std::span<const Values::Entry> entries) const;
+  /// The same of a deformer, which has no values: those of its stamps are checked stamp by stamp, against
+  /// `find(id)->parameters`.
+  Result<std::shared_ptr<const Deformer>> makeDeformer(std::string_view id) const;
 
  private:
   PluginRegistry() = default;

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
+#include "teren/MeshList.h"
 #include "teren/Morph.h"
 #include "teren/SurfaceVertex.h"
 
@@ -24,8 +24,9 @@ struct Mesh {
   std::int64_t originColumn = 0, originRow = 0;
   int columns = 0, rows = 0;                 ///< vertices lie at 0 ... columns and 0 ... rows
   float minHeight = 0.0F, maxHeight = 0.0F;  ///< [m] measured over the vertices, coarser heights too
-  int nodeLevel = 0;  ///< of the nodes it joins; between nodes of several levels, of the one it fills
-  float bend = 0.0F;  ///< [m] largest second difference of their samples: see drawnError in PixelError.h
+  int nodeLevel = 0;   ///< of the nodes it joins; between nodes of several levels, of the one it fills
+  float bend = 0.0F;   ///< [m] largest second difference of their samples: see drawnError in PixelError.h
+  float moved = 0.0F;  ///< [m] what edits add to their error (GroundEdits::moved); 0 at level 0
   std::vector<SurfaceVertex> vertices;
   std::shared_ptr<const TriangleIndices> indices;  ///< shared by all meshes of the same shape
 
@@ -38,14 +39,12 @@ struct Mesh {
 class Scene {
  public:
   Scene() = default;
-  /// `meshes` sorted by id.
-  Scene(std::uint64_t serial, double spacing, std::vector<std::shared_ptr<const Mesh>> meshes,
-        const Morph& morph = {})
+  Scene(std::uint64_t serial, double spacing, MeshList meshes, const Morph& morph = {})
       : serial_(serial), spacing_(spacing), meshes_(std::move(meshes)), morph_(morph) {}
 
-  std::uint64_t serial() const noexcept { return serial_; }  ///< grows with every change of the meshes
-  double spacing() const noexcept { return spacing_; }       ///< [m] between level-0 samples
-  std::span<const std::shared_ptr<const Mesh>> meshes() const noexcept { return meshes_; }
+  std::uint64_t serial() const noexcept { return serial_; }    ///< grows with every change of the meshes
+  double spacing() const noexcept { return spacing_; }         ///< [m] between level-0 samples
+  const MeshList& meshes() const noexcept { return meshes_; }  ///< in the order of their ids
   std::size_t triangles() const noexcept;
   /// How the vertices move with distance: not at all but where detail goes by error.
   const Morph& morph() const noexcept { return morph_; }
@@ -53,17 +52,17 @@ class Scene {
  private:
   std::uint64_t serial_ = 0;
   double spacing_ = 1.0;
-  std::vector<std::shared_ptr<const Mesh>> meshes_;
+  MeshList meshes_;
   Morph morph_;
 };
 
 struct SceneDifference {
-  std::vector<std::shared_ptr<const Mesh>> added;
-  std::vector<std::uint64_t> removed;  ///< ids
+  std::vector<std::shared_ptr<const Mesh>> added;  ///< by their ids, like the next
+  std::vector<std::uint64_t> removed;              ///< ids
 };
 
-/// What a renderer that shows `before` has to change to show `after`; any snapshots of one engine, in
-/// O(meshes).
+/// What a renderer that shows `before` has to change to show `after`; any snapshots of one engine. Costs what
+/// has changed and O(pages) between successive ones (MeshList), O(meshes) at most.
 SceneDifference difference(const Scene& before, const Scene& after);
 
 }  // namespace teren

@@ -82,6 +82,9 @@ class World {
 
   double pitch() const noexcept { return pitch_; }
   std::uint64_t seed() const noexcept { return seed_; }
+  /// Of the whole description, defaults filled in: what belongs to this world (edits, say) is told by it.
+  /// Plugins count by their ids, not their versions.
+  std::uint64_t descriptionHash() const noexcept { return descriptionHash_; }
   /// Intervals along a patch's side (n, a power of two); a node of any level has as many along its own side.
   int intervals() const noexcept { return intervals_; }
   /// [m] between samples at a level.
@@ -132,6 +135,7 @@ class World {
   World();
   double pitch_ = 0.0;
   std::uint64_t seed_ = 0;
+  std::uint64_t descriptionHash_ = 0;
   int intervals_ = 0;
   int topLevel_ = 0;
   std::vector<Layer> layers_;

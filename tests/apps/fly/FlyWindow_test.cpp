@@ -1,10 +1,18 @@
 // The window of the demo under keys as the window system sends them.
 #include "apps/fly/FlyWindow.h"
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include <QApplication>
 #include <QKeyEvent>
@@ -15,6 +23,8 @@
 #include <gtest/gtest.h>
 
 #include "teren/PluginRegistry.h"
+
+#include "tests/engine/plugin/ScratchFolder.h"
 
 namespace teren {
 namespace {
@@ -28,11 +38,13 @@ class FlyWindowKeys : public testing::Test {
     auto engine = Engine::create(*world, options);
     ASSERT_TRUE(engine.ok());
     flight_ = std::make_unique<Flight>(std::move(*engine), AircraftStart{.speed = 60.0});
+    prepare(*flight_, *world);
     window_ = std::make_unique<FlyWindow>(*flight_, Daylight{}, size,
                                           [] { return Error{"this test flies over one land"}; });
     ASSERT_TRUE(window_->settle());
     window_->fly(std::nullopt);
   }
+  virtual void prepare(Flight& /*flight*/, std::shared_ptr<const World> /*world*/) {}
   void TearDown() override {
     window_.reset();
     QApplication::processEvents();
@@ -104,7 +116,8 @@ TEST_F(FlyWindowDetail, IsChosenByKeysWhileItFlies) {
   EXPECT_EQ(detail()->distance, 2000.0);
   const std::size_t coarse = flight_->engine().figures().triangles;
   for (int turn = 0; turn < 10; ++turn) tap(Qt::Key_Plus);
-  fly(60);
+  // As many frames as a slow machine needs.
+  for (int second = 0; second < 60 && flight_->engine().figures().triangles <= coarse; ++second) fly(60);
   EXPECT_GT(flight_->engine().figures().triangles, coarse) << "it takes effect in flight";
   EXPECT_EQ(detail()->lines, 200.0) << "the picture's own numbers stay";
 }
@@ -220,8 +233,11 @@ TEST_F(FlyWindowDetail, StaysAsItIsWhileTheCameraFliesOffAlone) {
   EXPECT_EQ(aircraft(0).motion().position, before.position);
   EXPECT_EQ(aircraft(0).speed(), 60.0) << "nobody was steered";
   const Eye eye{begin.pose.position, begin.pose.height, lensPixels(200, begin.fieldOfView)};
-  EXPECT_EQ(window_->pixelError().max, pixelError(flight_->engine().world(), *scene, eye).max)
+  const World& world = flight_->engine().world();
+  EXPECT_EQ(window_->pixelError().max, pixelError(world, *scene, eye, {before.position, before.height}).max)
       << "and errors are told as they are seen from there";
+  EXPECT_GT(window_->pixelError().max, pixelError(world, *scene, eye).max)
+      << "of vertices that move with the aircraft, 27 m before the camera";
   EXPECT_LT(window_->viewpoint().fieldOfView, begin.fieldOfView);
   EXPECT_EQ(detail()->fieldOfView, fieldOfView) << "nor does the zoom choose";
   tap(Qt::Key_Home);
@@ -243,6 +259,347 @@ TEST_F(FlyWindowDetail, IsFlownOverByTheAutopilotUntilAKeySteers) {
   EXPECT_TRUE(aircraft(0).hasAutopilot());
   tap(Qt::Key_Left);
   EXPECT_FALSE(aircraft(0).hasAutopilot());
+}
+
+/// Over land with a deformer, small and near enough to be there soon; its edits are kept in a folder.
+class FlyWindowTools : public FlyWindowKeys {
+ protected:
+  void SetUp() override { begin(); }
+  /// A program that starts again, over the same file.
+  void begin() {
+    window_.reset();
+    flight_.reset();
+    open(land(), {.view = {1, 4}}, QSize(320, 240));
+  }
+  void prepare(Flight& flight, std::shared_ptr<const World> world) override {
+    flight.setEdits(std::make_unique<LandEdits>(
+        std::move(world),
+        [this, deformers = deformersOf(PluginRegistry::standard())](std::string_view id) {
+          while (editsWait_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          return deformers(id);
+        },
+        [this](const World&) -> Result<std::filesystem::path> { return file_; }));
+  }
+  void TearDown() override {
+    editsWait_ = false;
+    FlyWindowKeys::TearDown();
+    flight_.reset();  // its edits ask whether they wait
+  }
+  static WorldDescription land() {
+    return WorldDescription::fromJson(
+               R"({ "layers": [ { "generator": "constant", "parameters": { "height": 30 } } ] })",
+               "the test's")
+        .value();
+  }
+  void waitUntil(const std::function<bool()>& isSo) {
+    for (int turn = 0; turn < 20'000 && !isSo(); ++turn) fly(1);
+    ASSERT_TRUE(isSo());
+  }
+  void waitUntilShown() {
+    fly(2);  // what was pressed is asked for in the next frame
+    waitUntil(
+        [this] { return flight_->edits()->unfinished() == 0 && flight_->engine().figures().pending == 0; });
+    fly(2);
+  }
+  std::size_t edits() { return flight_->edits()->edits(); }
+  double heightAt(const Position& place) { return flight_->engine().drawnHeight(place).value_or(-1e9); }
+  void pause() {
+    tap(Qt::Key_P);
+    fly(2);
+  }
+  void mouse(QEvent::Type type, QPoint place, Qt::MouseButton button) {
+    QMouseEvent event(type, place, button, type == QEvent::MouseButtonPress ? button : Qt::NoButton,
+                      Qt::NoModifier);
+    QApplication::sendEvent(window_->focusProxy(), &event);
+  }
+
+  std::atomic<bool> editsWait_ = false;  // whoever applies them
+  ScratchFolder folder_;
+  std::filesystem::path file_ = folder_ / "land.edits";
+};
+
+TEST_F(FlyWindowTools, DigAheadWithAKeyHoweverShortItIsPressed) {
+  pause();
+  tap(Qt::Key_G);
+  EXPECT_EQ(window_->lastSentence(), "no tool is in hand; T takes one");
+  tap(Qt::Key_T);
+  EXPECT_EQ(window_->lastSentence(), "dig, 40 m wide, 4 m deep");
+  const std::optional<Position> aim = window_->aim();
+  ASSERT_TRUE(aim);
+  const Offset ahead = offset(aircraft(0).motion().position, *aim, 64.0);
+  EXPECT_GT(ahead.north, 30.0) << "in front of the aircraft, where it is seen";
+  EXPECT_FALSE(std::filesystem::exists(file_)) << "nothing was dug yet";
+  tap(Qt::Key_G);
+  waitUntilShown();
+  fly(5);
+  EXPECT_EQ(edits(), 1U);
+  EXPECT_NEAR(heightAt(*aim), 26.0, 0.5);
+  tap(Qt::Key_T);
+  EXPECT_EQ(window_->lastSentence(), "heap, 40 m wide, 4 m high");
+  tap(Qt::Key_B);
+  tap(Qt::Key_M);
+  EXPECT_EQ(window_->lastSentence(), "heap, 60 m wide, 6 m high");
+  tap(Qt::Key_V);
+  tap(Qt::Key_N);
+  EXPECT_EQ(window_->lastSentence(), "heap, 40 m wide, 4 m high");
+  tap(Qt::Key_G);
+  waitUntilShown();
+  EXPECT_NEAR(heightAt(*aim), 30.0, 1.5) << "filled in again, about: the hole's floor is hit farther off";
+}
+
+TEST_F(FlyWindowTools, DrawAFurrowWhileTheKeyIsHeldInFlight) {
+  tap(Qt::Key_T);
+  fly(2);
+  press(Qt::Key_G);
+  waitUntil([this] { return edits() > 4; });
+  release(Qt::Key_G);
+  fly(2);
+  waitUntilShown();
+  const std::size_t all = edits();
+  fly(20);
+  EXPECT_EQ(edits(), all) << "it is let go";
+}
+
+TEST_F(FlyWindowTools, DigWhereTheMouseIsWithItsRightButton) {
+  pause();
+  tap(Qt::Key_T);
+  const QPoint low(60, 200);
+  mouse(QEvent::MouseMove, low, Qt::NoButton);
+  const std::optional<Position> aim = window_->aim();
+  ASSERT_TRUE(aim);
+  const Offset away = offset(aircraft(0).motion().position, *aim, 64.0);
+  EXPECT_LT(away.east, -20.0) << "to the left of the middle";
+  mouse(QEvent::MouseButtonPress, low, Qt::RightButton);
+  mouse(QEvent::MouseButtonRelease, low, Qt::RightButton);
+  waitUntilShown();
+  EXPECT_NEAR(heightAt(*aim), 26.0, 0.5);
+  const std::size_t before = edits();
+  mouse(QEvent::MouseMove, QPoint(60, 5), Qt::NoButton);
+  EXPECT_FALSE(window_->aim()) << "the sky";
+  mouse(QEvent::MouseButtonPress, QPoint(60, 5), Qt::RightButton);
+  fly(3);
+  mouse(QEvent::MouseButtonRelease, QPoint(60, 5), Qt::RightButton);
+  fly(3);
+  EXPECT_EQ(edits(), before);
+}
+
+TEST_F(FlyWindowTools, UndoAndRedoAcrossRestarts) {
+  pause();
+  tap(Qt::Key_Z);
+  EXPECT_EQ(window_->lastSentence(), "there is nothing to undo");
+  tap(Qt::Key_T);
+  const Position aim = window_->aim().value_or(Position{});
+  tap(Qt::Key_G);
+  waitUntilShown();
+  ASSERT_NEAR(heightAt(aim), 26.0, 0.5);
+  begin();
+  EXPECT_EQ(edits(), 1U);
+  EXPECT_NEAR(heightAt(aim), 26.0, 0.5) << "the hole is there before it flies";
+  pause();
+  tap(Qt::Key_Z);
+  EXPECT_EQ(window_->lastSentence(), "undone");
+  waitUntilShown();
+  EXPECT_EQ(heightAt(aim), 30.0);
+  EXPECT_EQ(edits(), 0U);
+  begin();
+  pause();
+  EXPECT_EQ(heightAt(aim), 30.0);
+  QKeyEvent redo(QEvent::KeyPress, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  QApplication::sendEvent(window_->focusProxy(), &redo);
+  waitUntilShown();
+  EXPECT_NEAR(heightAt(aim), 26.0, 0.5);
+}
+
+TEST_F(FlyWindowTools, StayInTheLandThatIsMadeAnew) {
+  pause();
+  tap(Qt::Key_T);
+  const Position aim = window_->aim().value_or(Position{});
+  tap(Qt::Key_G);
+  waitUntilShown();
+  auto world = World::create(land(), *PluginRegistry::standard()).value();
+  editsWait_ = true;
+  flight_->goOverTo(Engine::create(world, {.view = {1, 4}}).value(), world);
+  fly(60);
+  EXPECT_TRUE(flight_->isLeaving()) << "however soon the new land is there";
+  editsWait_ = false;
+  while (flight_->isLeaving()) {
+    ASSERT_NEAR(heightAt(aim), 26.0, 0.5);
+    fly(1);
+  }
+  EXPECT_NEAR(heightAt(aim), 26.0, 0.5) << "nobody sees the new land without its hole";
+  tap(Qt::Key_G);
+  waitUntilShown();
+  EXPECT_NEAR(heightAt(aim), 22.0, 1.5) << "and it is dug on";
+}
+
+TEST_F(FlyWindowTools, StayInTheLandThatIsMadeAnewWhileTheFirstIsMade) {
+  flight_->edits()->press(craterEdit({}, 64.0, 20.0, 4.0, 0.0, 0.0));
+  waitUntilShown();
+  ASSERT_NEAR(heightAt({}), 26.0, 0.5);
+  window_.reset();
+  flight_.reset();
+  auto world = World::create(land(), *PluginRegistry::standard()).value();
+  const EngineOptions options{.view = {1, 4}};
+  flight_ = std::make_unique<Flight>(Engine::create(world, options).value(), AircraftStart{});
+  prepare(*flight_, world);
+  flight_->settle([&](std::size_t, std::size_t) {
+    if (flight_->isLeaving()) return true;
+    auto next = World::create(land(), *PluginRegistry::standard()).value();
+    flight_->goOverTo(Engine::create(next, options).value(), next);
+    return true;
+  });
+  ASSERT_TRUE(flight_->isLeaving());
+  for (int turn = 0; turn < 100'000 && flight_->isLeaving(); ++turn) flight_->advance(0.001);
+  EXPECT_EQ(flight_->changes(), 1);
+  EXPECT_NEAR(heightAt({}), 26.0, 0.5);
+}
+
+TEST_F(FlyWindowTools, LeaveLandAloneThatIsNotSeenYet) {
+  pause();
+  tap(Qt::Key_T);
+  const Position aim = window_->aim().value_or(Position{});
+  tap(Qt::Key_G);
+  waitUntilShown();
+  const auto description = WorldDescription::fromJson(
+      R"({ "layers": [ { "generator": "constant", "parameters": { "height": 20 } } ] })", "the test's");
+  auto other = World::create(*description, *PluginRegistry::standard()).value();
+  file_ = folder_ / "other.edits";
+  flight_->goOverTo(Engine::create(other, {.view = {1, 4}}).value(), other);
+  QKeyEvent redo(QEvent::KeyPress, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  const auto sentenceAfter = [this](const std::function<void()>& ask) {
+    ask();
+    return window_->lastSentence();
+  };
+  const std::string refusal = "another land is being made; it can be dug once it is there";
+  EXPECT_EQ(sentenceAfter([this] { tap(Qt::Key_Z); }), refusal);
+  EXPECT_EQ(sentenceAfter([&] { QApplication::sendEvent(window_->focusProxy(), &redo); }), refusal);
+  EXPECT_EQ(sentenceAfter([this] { press(Qt::Key_G); }), refusal);
+  while (flight_->isLeaving()) {
+    ASSERT_EQ(edits() + flight_->edits()->unfinished(), 0U);
+    ASSERT_NEAR(heightAt(aim), 26.0, 0.5);
+    fly(1);
+  }
+  fly(2);
+  release(Qt::Key_G);
+  waitUntilShown();
+  EXPECT_GT(edits(), 0U) << "the key was still held there";
+}
+
+TEST_F(FlyWindowTools, ForgetAPressOnceNoneIsInHand) {
+  pause();
+  tap(Qt::Key_T);
+  tap(Qt::Key_G);
+  for (int turn = 0; turn < 7; ++turn) tap(Qt::Key_T);
+  ASSERT_FALSE(window_->tools().inHand());
+  fly(2);
+  tap(Qt::Key_T);
+  fly(2);
+  EXPECT_EQ(edits() + flight_->edits()->unfinished(), 0U) << "nobody has pressed this one";
+}
+
+TEST_F(FlyWindowTools, BeginAnewWhereTheMouseComesBackFromTheSky) {
+  pause();
+  tap(Qt::Key_T);
+  const QPoint left(100, 200), right(220, 200), sky(160, 5);
+  mouse(QEvent::MouseMove, left, Qt::NoButton);
+  mouse(QEvent::MouseButtonPress, left, Qt::RightButton);
+  fly(2);
+  mouse(QEvent::MouseMove, sky, Qt::NoButton);
+  fly(2);
+  mouse(QEvent::MouseMove, right, Qt::NoButton);
+  fly(2);
+  mouse(QEvent::MouseButtonRelease, right, Qt::RightButton);
+  waitUntilShown();
+  EXPECT_EQ(edits(), 2U) << "nothing between";
+}
+
+TEST_F(FlyWindowTools, AreTakenBackByWholeStrokes) {
+  tap(Qt::Key_T);
+  fly(2);
+  press(Qt::Key_G);
+  waitUntil([this] { return edits() > 3; });
+  release(Qt::Key_G);
+  fly(2);
+  pause();
+  waitUntilShown();
+  tap(Qt::Key_G);
+  waitUntilShown();
+  const std::size_t all = edits();
+  tap(Qt::Key_Z);
+  waitUntilShown();
+  EXPECT_EQ(edits(), all - 1);
+  tap(Qt::Key_Z);
+  waitUntilShown();
+  EXPECT_EQ(edits(), 0U);
+  tap(Qt::Key_Y);
+  waitUntilShown();
+  EXPECT_EQ(edits(), all - 1);
+}
+
+TEST_F(FlyWindowTools, SayTheirSizeAsTheGroundAllowsAtOnce) {
+  window_.reset();
+  flight_.reset();
+  open(WorldDescription::fromJson(R"({ "pitch": 16, "layers": [ { "generator": "constant" } ] })",
+                                  "the test's")
+           .value(),
+       {.view = {1, 4}}, QSize(320, 240));
+  for (int turn = 0; turn < 6; ++turn) tap(Qt::Key_T);
+  EXPECT_EQ(window_->lastSentence(), "shovel, 16 m wide, 2 m deep") << "before it was ever aimed";
+}
+
+TEST_F(FlyWindowTools, AreThrownUpToByAHeapThatGrowsUnderAnAircraft) {
+  pause();
+  const Position place = aircraft(0).motion().position;
+  flight_->edits()->press(craterEdit(place, 64.0, 200.0, -190.0, 0.0, 0.0));
+  waitUntilShown();
+  EXPECT_GT(aircraft(0).motion().height, 200.0) << "however long the heap took";
+  pause();
+  for (int turn = 0; turn < 100; ++turn) {
+    fly(1);
+    const auto ground = flight_->engine().ground().height(aircraft(0).motion().position);
+    if (ground) {
+      ASSERT_GE(aircraft(0).motion().height, *ground);
+    }
+  }
+}
+
+TEST_F(FlyWindowTools, SayOnceThatAnotherProgramHasTheFileAndDigInMemory) {
+  pause();
+  tap(Qt::Key_T);
+  tap(Qt::Key_G);
+  waitUntilShown();
+  LandEdits other(World::create(land(), *PluginRegistry::standard()).value(),
+                  deformersOf(PluginRegistry::standard()),
+                  [this](const World&) -> Result<std::filesystem::path> { return file_; });
+  other.press(craterEdit({}, 64.0, 20.0, 4.0, 0.0, 0.0));
+  while (other.unfinished() > 0) {
+    other.handTo(flight_->engine());
+  }
+  const std::vector<std::string> messages = other.takeMessages();
+  ASSERT_EQ(messages.size(), 1U);
+  EXPECT_NE(messages[0].find("memory"), std::string::npos) << messages[0];
+  EXPECT_EQ(other.takeMessages().size(), 0U);
+}
+
+TEST_F(FlyWindowTools, SayOnceThatAFileCannotBeWrittenAndDigInMemory) {
+  file_ = "/proc/no-such-folder/land.edits";
+  begin();
+  pause();
+  tap(Qt::Key_T);
+  const Position aim = window_->aim().value_or(Position{});
+  tap(Qt::Key_G);
+  waitUntilShown();
+  EXPECT_NEAR(heightAt(aim), 26.0, 0.5);
+  waitUntil([this] { return window_->lastSentence().find("in memory") != std::string::npos; });
+  tap(Qt::Key_Z);
+  waitUntilShown();
+  EXPECT_EQ(heightAt(aim), 30.0);
+}
+
+TEST_F(FlyWindowKeys, SayThatNobodyKeepsEditsWhereNobodyDoes) {
+  tap(Qt::Key_T);
+  EXPECT_EQ(window_->lastSentence(), "nobody keeps edits of this land");
+  EXPECT_FALSE(window_->tools().inHand());
 }
 
 TEST_F(FlyWindowKeys, SteerTheActiveAircraftWhileTheyAreDown) {

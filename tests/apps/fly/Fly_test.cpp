@@ -1,6 +1,8 @@
 // Runs teren-fly as a person would, and looks at what it leaves.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <set>
 #include <string>
@@ -175,6 +177,7 @@ TEST_F(Fly, RefusesAWrongCommandLineInOneSentence) {
                                 "--view-distance 1e9",
                                 "--view-distance 500 --radius 3",
                                 "--screenshot ''",
+                                "--edits ''",
                                 "--stats=",
                                 "--autopilot=7",
                                 "--pixel-error 0",
@@ -192,6 +195,65 @@ TEST_F(Fly, RefusesAWrongCommandLineInOneSentence) {
     EXPECT_TRUE(refused.errors.starts_with("teren-fly: ")) << arguments << ": " << refused.errors;
     EXPECT_EQ(std::count(refused.errors.begin(), refused.errors.end(), '\n'), 1) << refused.errors;
   }
+}
+
+TEST_F(Fly, LeavesNoFileOfEditsBehindWhereNothingWasDug) {
+  EXPECT_FALSE(fs::exists(folder_ / "teren")) << "the user's data folder";
+  const fs::path file = folder_ / "nothing.edits";
+  EXPECT_EQ(run("--seconds 0 --size 200x100 --radius 1 --edits " + file.string()).exitCode, 0);
+  EXPECT_FALSE(fs::exists(file));
+}
+
+/// How many pixels of two pictures of one size differ plainly.
+int differences(const QImage& one, const QImage& other) {
+  int count = 0;
+  for (int y = 0; y < one.height(); ++y) {
+    for (int x = 0; x < one.width(); ++x) {
+      const QColor a(one.pixel(x, y)), b(other.pixel(x, y));
+      if (std::abs(a.lightness() - b.lightness()) > 12) ++count;
+    }
+  }
+  return count;
+}
+
+TEST_F(Fly, ShowsAHoleThatTheLandsFileOfEditsHolds) {
+  std::ofstream(folder_ / "land.json")
+      << R"({ "layers": [ { "generator": "constant", "parameters": { "height": 30 } } ] })";
+  std::ofstream(folder_ / "hole.txt") << "stamp crater 60 420 0 120 90 7 0\n";
+  const std::string world = "--world " + (folder_ / "land.json").string();
+  const auto fly = [&](const std::string& name) {
+    const Outcome flown =
+        run(world + " --speed 5 --seconds 0 --size 480x300 --radius 8 --view-level 1 --screenshot " +
+            (folder_ / (name + ".png")).string() + " --stats " + (folder_ / (name + ".json")).string());
+    EXPECT_EQ(flown.exitCode, 0);
+    EXPECT_EQ(flown.errors, "");
+    return QImage(QString::fromStdString((folder_ / (name + ".png")).string()));
+  };
+  const QImage plain = fly("plain");
+  ASSERT_EQ(std::system((std::string(TEREN_PROGRAM " edits ") + world + " apply " +
+                         (folder_ / "hole.txt").string() + " >/dev/null 2>&1")
+                            .c_str()),
+            0);
+  ASSERT_TRUE(fs::exists(folder_ / "land.edits"));
+  const QImage dug = fly("dug"), again = fly("again");
+  // The head-up display takes the right of the picture.
+  const QRect land(0, 150, 300, 150);
+  EXPECT_GT(differences(plain.copy(land), dug.copy(land)), 2000);
+  EXPECT_LT(differences(dug.copy(land), again.copy(land)), 500) << "the same after a restart";
+  const nlohmann::json stats = nlohmann::json::parse(contents(folder_ / "dug.json"), nullptr, false);
+  EXPECT_EQ(stats.value("edits", 0), 1);
+  EXPECT_FALSE(nlohmann::json::parse(contents(folder_ / "plain.json")).contains("edits"));
+}
+
+TEST_F(Fly, SaysInOneSentenceThatAFileOfEditsCannotBeHadAndFliesOn) {
+  const fs::path file = folder_ / "text.edits";
+  std::ofstream(file) << "no journal";
+  const Outcome flown = run("--seconds 0 --size 200x100 --radius 1 --edits " + file.string());
+  EXPECT_EQ(flown.exitCode, 0);
+  EXPECT_TRUE(flown.errors.starts_with("teren-fly: ")) << flown.errors;
+  EXPECT_NE(flown.errors.find("text.edits"), std::string::npos) << flown.errors;
+  EXPECT_EQ(std::count(flown.errors.begin(), flown.errors.end(), '\n'), 1) << flown.errors;
+  EXPECT_EQ(contents(file), "no journal") << "and is left as it was";
 }
 
 TEST_F(Fly, SaysInOneSentenceThatItCannotOpenAWindow) {
@@ -217,6 +279,15 @@ TEST_F(Fly, EndsCleanlyWhenInterrupted) {
             124);  // timeout's own; a program killed by the signal would not have written
   EXPECT_EQ(interrupted.errors, "");
   EXPECT_TRUE(nlohmann::json::parse(contents(folder_ / "b.json"), nullptr, false).is_object());
+}
+
+TEST_F(Fly, SaysWhatErrorAndDistanceItsFiguresAreOf) {
+  const Outcome flown = run("--seconds 0.2 --size 200x100 --pixel-error 50 --view-distance 900 --stats " +
+                            (folder_ / "c.json").string());
+  EXPECT_EQ(flown.exitCode, 0) << flown.errors;
+  const nlohmann::json stats = nlohmann::json::parse(contents(folder_ / "c.json"), nullptr, false);
+  ASSERT_TRUE(stats.is_object() && stats.contains("detail"));
+  EXPECT_EQ(stats["detail"], (nlohmann::json{{"pixel_error", 50.0}, {"distance", 900.0}, {"lines", 100.0}}));
 }
 
 }  // namespace

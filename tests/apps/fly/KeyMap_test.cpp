@@ -63,6 +63,14 @@ TEST(KeyMap, HasAKeyForEveryOtherThing) {
   EXPECT_EQ(KeyMap::action(Qt::Key_P, false), Action::pause);
   EXPECT_EQ(KeyMap::action(Qt::Key_F1, false), Action::help);
   EXPECT_EQ(KeyMap::action(Qt::Key_F5, false), Action::reload);
+  EXPECT_EQ(KeyMap::action(Qt::Key_G, false), Action::dig);
+  EXPECT_EQ(KeyMap::action(Qt::Key_T, false), Action::nextTool);
+  EXPECT_EQ(KeyMap::action(Qt::Key_V, false), Action::smallerTool);
+  EXPECT_EQ(KeyMap::action(Qt::Key_B, false), Action::largerTool);
+  EXPECT_EQ(KeyMap::action(Qt::Key_N, false), Action::shallowerTool);
+  EXPECT_EQ(KeyMap::action(Qt::Key_M, false), Action::deeperTool);
+  EXPECT_EQ(KeyMap::action(Qt::Key_Z, false), Action::undo);
+  EXPECT_EQ(KeyMap::action(Qt::Key_Y, false), Action::redo);
   EXPECT_EQ(KeyMap::action(Qt::Key_F11, false), Action::fullScreen);
   EXPECT_EQ(KeyMap::action(Qt::Key_F12, false), Action::screenshot);
   EXPECT_EQ(KeyMap::action(Qt::Key_Escape, false), Action::quit);
@@ -77,9 +85,19 @@ TEST(KeyMap, ExplainsInItsHelpEveryKeyThatDoesSomething) {
   for (const char* key :
        {"mouse", "wheel", "Num 8 2 4 6", "I K J L", "PageUp", "PageDown", "Num 5",      "Home",
         "C,",    "Tab",   "P,",          "F1,",     "F5,",    "+, -",     ". (period)", "(comma)",
-        "F2,",   "F3,",   "F4,",         "F6,",     "F7,",    "F11",      "F12",        "Escape"}) {
+        "F2,",   "F3,",   "F4,",         "F6,",     "F7,",    "F11",      "F12",        "Escape",
+        "T,",    "G ",    "right mouse", "V, B",    "N, M",   "Z, Y"}) {
     EXPECT_NE(keys.find(key), std::string::npos) << key;
   }
+}
+
+TEST(KeyMap, TakesShiftWithZForRedoAndLeavesOtherKeysAsTheyAre) {
+  EXPECT_EQ(KeyMap::action(KeyMap::withShift(Qt::Key_Z), false), Action::redo);
+  EXPECT_EQ(KeyMap::withShift(Qt::Key_Y), Qt::Key_Y);
+  EXPECT_EQ(KeyMap::withShift(Qt::Key_W), Qt::Key_W);
+  EXPECT_TRUE(isRepeatedAction(Action::undo));
+  EXPECT_TRUE(isRepeatedAction(Action::redo));
+  EXPECT_FALSE(isRepeatedAction(Action::nextTool));
 }
 
 TEST(KeyMap, LetsTheKeysThatSteerMoveACameraThatFliesAlone) {
@@ -105,6 +123,16 @@ TEST(HeldKeys, MoveTheCameraWhileHeld) {
   EXPECT_EQ(keys.cameraMoves().right, 0.0);
   keys.releaseAll();
   EXPECT_EQ(keys.cameraMoves().forward, 0.0);
+}
+
+TEST(HeldKeys, DigWhileTheToolsKeyIsDown) {
+  HeldKeys keys;
+  EXPECT_FALSE(keys.dig());
+  keys.press(Qt::Key_G, false);
+  EXPECT_TRUE(keys.dig());
+  EXPECT_EQ(keys.cameraMoves().forward, 0.0);
+  keys.release(Qt::Key_G, false);
+  EXPECT_FALSE(keys.dig());
 }
 
 TEST(HeldKeys, CancelOutWhenTheyContradict) {
@@ -140,6 +168,7 @@ TEST(HeldKeys, LeaveOutKeysThatActOncePerPress) {
   keys.press(Qt::Key_Q, false);
   EXPECT_EQ(keys.cameraMoves().forward, 0.0);
   EXPECT_FALSE(isHeldAction(Action::pause));
+  EXPECT_FALSE(isHeldAction(Action::nextTool));
   EXPECT_TRUE(isHeldAction(Action::cameraDown));
 }
 

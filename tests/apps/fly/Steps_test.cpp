@@ -8,7 +8,8 @@ namespace teren {
 namespace {
 
 TEST(Steps, GoUpAndDownOneByOneAndStopAtTheirEnds) {
-  for (const Steps& steps : {Steps::distances(), Steps::pixelErrors()}) {
+  for (const Steps& steps :
+       {Steps::distances(), Steps::pixelErrors(), Steps::toolSizes(), Steps::toolDepths()}) {
     double value = steps.at(0);
     for (int index = 1; index < steps.count(); ++index) {
       ASSERT_GT(steps.at(index), value);

@@ -11,9 +11,12 @@
 #include "teren/World.h"
 
 #include "apps/report/Statistics.h"
+#include "tests/apps/report/SmallWorld.h"
 
 namespace teren {
 namespace {
+
+using test::always;
 
 constexpr double kPitch = 64.0, kStep = 2.0 / 1024.0;
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -58,10 +61,6 @@ std::vector<Position> linePlaces(Across across) {
     }
   }
   return places;
-}
-
-bool always() {
-  return true;
 }
 
 TEST(Crease, OfAPlaneIsNone) {

@@ -30,6 +30,21 @@ TEST(FrameTable, HasARowForEachFile) {
   EXPECT_TRUE(readFrames({})->rows().empty());
 }
 
+TEST(FrameTable, KnowsWhatWasWantedWhereDetailGoesByError) {
+  const ScratchFolder folder;
+  std::string text = kGood;
+  folder.write("level.json", text);
+  text.insert(1, R"("detail": {"pixel_error": 24, "distance": 20000, "lines": 720}, )");
+  folder.write("error.json", text);
+  const auto table = readFrames(std::vector<std::string>{folder / "level.json", folder / "error.json"});
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->text(0, "pixel error"), "");
+  EXPECT_EQ(table->number(1, "pixel error"), 24.0);
+  EXPECT_EQ(table->number(1, "view distance"), 20000.0);
+  EXPECT_EQ(table->number(1, "lines"), 720.0);
+  EXPECT_EQ(table->number(1, "frame median"), 20.5);
+}
+
 TEST(FrameTable, RefusesOtherFilesNamingThemAndWhatIsMissing) {
   const ScratchFolder folder;
   const auto refused = [&](const std::string& bytes, const std::string& named) {
@@ -44,6 +59,8 @@ TEST(FrameTable, RefusesOtherFilesNamingThemAndWhatIsMissing) {
   refused("{\"frames\": 1", "JSON");
   refused("{}", "frames");
   refused(R"({"frames": 1, "frame_ms": 5})", "frame_ms.p50");
+  refused(R"({"detail": 5, "frames": 1})", "detail.pixel_error");
+  refused(R"({"detail": {"pixel_error": 24}, "frames": 1})", "detail.distance");
   refused(R"({"frames": 1, "frame_ms": {"p50": "fast"}})", "frame_ms.p50");
   refused(R"({"frames": 1e999})", "JSON");
   refused(std::string(2 << 20, ' '), "larger");

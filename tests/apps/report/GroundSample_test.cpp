@@ -12,27 +12,19 @@
 
 #include "apps/report/DetailTable.h"
 #include "apps/report/Statistics.h"
+#include "tests/apps/report/SmallWorld.h"
 
 namespace teren {
 namespace {
 
+using test::always;
+using test::faultWorld;
+
 constexpr double kPitch = 64.0;
 
-bool always() {
-  return true;
-}
-
-std::shared_ptr<const World> faultWorld() {
-  WorldDescription description;
-  description.layers.resize(1);
-  description.layers[0].generator = "fault";
-  const auto world = World::create(description, *PluginRegistry::standard());
-  EXPECT_TRUE(world);
-  return *world;
-}
-
 /// A square of flat ground at a height [m], two triangles, of 64 x 64 patches around (0, 0).
-std::shared_ptr<const Scene> plate(double height) {
+/// With `morph`, every vertex lies `coarser` metres high on the next coarser surface.
+std::shared_ptr<const Scene> plate(double height, const Morph& morph = {}, double coarser = 0.0) {
   auto mesh = std::make_shared<Mesh>();
   mesh->level = 6;
   mesh->nodeLevel = 6;
@@ -44,6 +36,7 @@ std::shared_ptr<const Scene> plate(double height) {
     for (int column = 0; column <= 32; ++column) {
       mesh->vertices.push_back(
           {static_cast<std::int16_t>(column), static_cast<std::int16_t>(row), static_cast<float>(height)});
+      mesh->vertices.back().setCoarser(6, static_cast<float>(coarser), 0, 0);
       if (row == 32 || column == 32) continue;
       const auto at = static_cast<std::uint32_t>(row * 33 + column);
       for (const std::uint32_t corner : {at, at + 1, at + 34, at, at + 34, at + 33})
@@ -51,8 +44,9 @@ std::shared_ptr<const Scene> plate(double height) {
     }
   }
   mesh->indices = std::make_shared<const TriangleIndices>(indices);
-  mesh->minHeight = mesh->maxHeight = static_cast<float>(height);
-  return std::make_shared<const Scene>(1, 2.0, std::vector<std::shared_ptr<const Mesh>>{mesh});
+  mesh->minHeight = static_cast<float>(std::min(height, coarser));
+  mesh->maxHeight = static_cast<float>(std::max(height, coarser));
+  return std::make_shared<const Scene>(1, 2.0, std::vector<std::shared_ptr<const Mesh>>{mesh}, morph);
 }
 
 TEST(GroundSample, IsHalfByDistanceAndHalfByAreaAndHasLevelZeroHeights) {
@@ -102,6 +96,28 @@ TEST(GroundSample, FindsHowFarAPlateIsOff) {
   EXPECT_EQ(errors.finest, 0U);
 }
 
+TEST(GroundSample, FindsHowFarAPlateIsOffThatMovesWithDistance) {
+  GroundSample sample;
+  sample.byDistance = 1;
+  for (const double east : {20.0, 1500.0}) {
+    sample.places.push_back(*Position::fromMetres(east, 0.0, kPitch));
+    sample.heights.push_back(0.0);
+  }
+  // From 400 m on a vertex leaves the height of 2 m, and at 800 m it has come to 7 m.
+  std::vector<double> errors(8, 1.0);
+  errors[6] = 2.0;
+  errors[7] = 8.0;
+  const Morph morph(0.01, errors);
+  const std::vector<float> promised{2.5F};
+  const SceneQuery query(plate(2.0, morph, 7.0), 32, promised);
+  const Eye eye{.position = *Position::fromMetres(0.0, 0.0, kPitch), .height = 2.0, .lensPixels = 500.0};
+  const SurfaceErrors found = errorsOf(query, sample, eye, kPitch);
+  ASSERT_EQ(found.places, 2U);
+  EXPECT_NEAR(found.pixels.at(0), 2.0 / std::hypot(20.0, 2.0) * 500.0, 1e-6) << "near by nothing has moved";
+  EXPECT_NEAR(found.metres.at(0), 7.0, 1e-5) << "far away all of the way";
+  EXPECT_EQ(found.beyondPromise, 0U) << "what it has moved is part of the promise";
+}
+
 TEST(GroundSample, FindsNothingWrongWithLevelZero) {
   const auto world = faultWorld();
   EngineOptions options;
@@ -136,7 +152,8 @@ TEST(DetailTable, PromisesWhatIsTrue) {
   ASSERT_TRUE(table) << table.error().message;
   ASSERT_EQ(table->rows().size(), 2U);
   for (std::size_t row = 0; row < 2; ++row) {
-    EXPECT_EQ(table->number(row, "view distance"), 1500.0) << "the farther one does not fit";
+    EXPECT_EQ(table->number(row, "view distance"), 1500.0)
+        << "the farther one does not fit, and the usual one is not nearer";
     EXPECT_GT(table->number(row, "true max"), 0.0);
     EXPECT_GE(table->number(row, "true max"), table->number(row, "true p99"));
     EXPECT_GE(table->number(row, "true p99"), table->number(row, "true RMS"));

@@ -1,9 +1,14 @@
 // What gnuplot is asked for, and pictures as parts of a page.
 #include "apps/report/Plot.h"
 
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "apps/report/Gnuplot.h"
+#include "tests/engine/plugin/ScratchFolder.h"
 
 namespace teren {
 namespace {
@@ -37,6 +42,47 @@ TEST(Plot, WithoutAPointIsNotDrawn) {
   const Plot plot{"name", "title", "x", "y", false, true, {{"one", {{1.0, -2.0}}}}};
   EXPECT_EQ(scriptOf(plot), "");
   EXPECT_FALSE(drawn(plot));
+}
+
+/// Puts a gnuplot of one's own in the way of the installed one.
+class OtherGnuplot {
+ public:
+  explicit OtherGnuplot(const std::string& script) {
+    const char* const path = std::getenv("PATH");
+    before_ = path == nullptr ? "" : path;
+    folder_.write("gnuplot", "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(folder_ / "gnuplot", std::filesystem::perms::owner_all);
+    setenv("PATH", (folder_.path().string() + ":" + before_).c_str(), 1);
+  }
+  OtherGnuplot(const OtherGnuplot&) = delete;
+  OtherGnuplot& operator=(const OtherGnuplot&) = delete;
+  ~OtherGnuplot() { setenv("PATH", before_.c_str(), 1); }
+
+ private:
+  ScratchFolder folder_;
+  std::string before_;
+};
+
+TEST(Plot, IsDrawnWhereGnuplotIsInstalled) {
+  if (const Result<void> found = findGnuplot(); !found) GTEST_SKIP() << found.error().message;
+  const auto picture = drawn({"name", "title", "x", "y", false, false, {{"one", {{1.0, 2.0}, {2.0, 3.0}}}}});
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_NE(inlineSvg(*picture, "name"), "");
+}
+
+TEST(Plot, IsRefusedWhereGnuplotHasWrittenAPartOfIt) {
+  const Plot plot{"name", "title", "x", "y", false, false, {{"one", {{1.0, 2.0}}}}};
+  for (const char* part : {"", "<svg><g>", "<svg><g></svg", "<svg></svg><g"}) {
+    const OtherGnuplot cut(std::string("printf '") + part + "'");
+    const auto picture = drawn(plot);
+    ASSERT_FALSE(picture) << part;
+    EXPECT_NE(picture.error().message.find("has not drawn all of the plot name"), std::string::npos)
+        << picture.error().message;
+  }
+  const OtherGnuplot whole("printf '<svg></svg>\\n\\n'");
+  const auto picture = drawn(plot);
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(*picture, "<svg></svg>\n\n");
 }
 
 TEST(Plot, BecomesAPartOfAPageWithIdsOfItsOwn) {

@@ -34,6 +34,7 @@ TEST(SchedulingTable, HasARowForEachBudgetAndNumberOfWorkers) {
     EXPECT_GT(table->number(row, "work to fill"), 0.0);
     EXPECT_GE(table->number(row, "error p99"), table->number(row, "error median"));
     EXPECT_LE(table->number(row, "error reached"), 100.0);
+    EXPECT_EQ(table->number(row, "looks"), 30.0) << "one an update, but in the first second";
   }
 }
 

@@ -101,10 +101,16 @@ class SandWindowEvents : public testing::Test {
   std::uint64_t hash() const { return hashOf(session_->sandbox().surface()); }
   double ground(double x, double y) const { return session_->groundHeight(x, y); }
 
+  /// There is none until the display has shown the window, which may take its time.
   QImage picture() {
     const std::string file = (folder_ / "picture.png").string();
     EXPECT_TRUE(settle());
-    EXPECT_TRUE(window_->screenshot(file));
+    bool taken = false;
+    for (int n = 0; n < 1'000 && !taken; ++n) {
+      QApplication::processEvents();
+      taken = window_->screenshot(file).ok();
+    }
+    EXPECT_TRUE(taken);
     return QImage(QString::fromStdString(file));
   }
   static int count(const QImage& picture, const std::function<bool(const QColor&)>& wanted) {

@@ -189,7 +189,7 @@ TEST(CommandLine, RefusesFlightsThatCannotBe) {
                  {flight({"--cap-mib", "7"}), "--cap-mib is \"7\""},
                  {flight({"--cap-mib", "9999999"}), "--cap-mib is \"9999999\""},
                  {flight({"--cap-mib", "8", "--samples", "1025"}), "cap"},
-                 {flight({"--edits", "edits.db"}), "--edits"},
+                 {flight({"--edits", "/no/such/edits.db"}), "edits.db"},
                  {flight({"--fast=no"}), "fast"},
                  {flight({"--set", "height=1e9"}), "--set"},
                  {flight({"elsewhere"}), "elsewhere"}});

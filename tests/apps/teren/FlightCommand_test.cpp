@@ -1,4 +1,5 @@
 // What `teren flight` answers. No test here looks at a clock: how long anything took is for people to read.
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <set>
@@ -9,6 +10,7 @@
 #include "teren/Hash.h"
 
 #include "tests/apps/teren/Program.h"
+#include "tests/engine/plugin/ScratchFolder.h"
 
 namespace teren {
 namespace {
@@ -45,6 +47,30 @@ std::set<std::string> keysOf(const Json& object) {
   for (const auto& item : object.items()) keys.insert(item.key());
   return keys;
 }
+
+/// A journal of craters over the beginning of that flight.
+class DugFlight {
+ public:
+  DugFlight() {
+    std::string text;
+    for (int k = 0; k < 8; ++k) {
+      text += "stamp crater " + std::to_string(-1234567 + 9 * k) + " " + std::to_string(110 + 45 * k) +
+              " 0 30 8 " + std::to_string(k) + " 0\n";
+    }
+    folder_.write("craters.txt", text);
+    const Answer applied = teren(
+        {"edits", "apply", (folder_ / "craters.txt").string(), "--seed", "18446744073", "--edits", file()});
+    EXPECT_EQ(applied.exitCode, 0) << applied.complaint;
+  }
+  std::string file() const { return (folder_ / "land.edits").string(); }
+  std::string hash(Arguments added) const {
+    added.insert(added.end(), {"--edits", file()});
+    return windingHash(added);
+  }
+
+ private:
+  ScratchFolder folder_;
+};
 
 /// The hash of one height, seen so many times.
 std::string hashOfHeight(double height, int times) {
@@ -241,6 +267,28 @@ TEST(FlightCommand, StopsCleanlyAndReportsWhenInterrupted) {
     const int updates = Json::parse(answer.output).at("updates");
     EXPECT_LT(updates, 86400 * 60);
     EXPECT_NE(answer.complaint.find(" " + std::to_string(updates) + " of 5184000 "), std::string::npos);
+  }
+}
+
+TEST(FlightCommand, HashesEditedGroundTheSamePacedOrNotAndForAnyWorkersAndBudget) {
+  const DugFlight dug;
+  const std::string hash = dug.hash({"--fast"});
+  EXPECT_NE(hash, windingHash({"--fast"})) << "other ground, other hash";
+  for (const Arguments& other :
+       {Arguments{}, Arguments{"--fast", "--workers", "2"}, Arguments{"--fast", "--budget-us", "100"},
+        Arguments{"--workers", "3", "--pixel-error", "4"}}) {
+    EXPECT_EQ(dug.hash(other), hash);
+  }
+}
+
+TEST(FlightCommand, RefusesAJournalThatIsNotThereOrOfAnotherWorldInOneSentence) {
+  const DugFlight dug;
+  for (const Arguments& wrong : {Arguments{"--edits", ""}, Arguments{"--edits", "/no/such.edits"},
+                                 Arguments{"--seed", "5", "--edits", dug.file()}}) {
+    const Answer answer = teren(flight(wrong));
+    EXPECT_EQ(answer.exitCode, 2);
+    EXPECT_EQ(answer.output, "");
+    EXPECT_EQ(std::count(answer.complaint.begin(), answer.complaint.end(), '\n'), 1) << answer.complaint;
   }
 }
 

@@ -2,7 +2,6 @@
 // of flight; an hour with TEREN_FULL.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -10,17 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/teren/Program.h"
+#include "tests/support/TrialSize.h"
 
 namespace teren {
 namespace {
 
 using Json = nlohmann::json;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // memory is theirs, not the C library's
-#else
-constexpr bool kSanitized = false;
-#endif
 
 constexpr std::int64_t kMiB = std::int64_t{1} << 20;
 
@@ -46,8 +40,8 @@ std::string table(const Json& memory) {
 }
 
 void expectNoGrowth(std::int64_t cap, const Arguments& added) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer keeps what is freed";
-  const bool full = std::getenv("TEREN_FULL") != nullptr;
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer keeps what is freed";
+  const bool full = test::isFull();
   Arguments all = {"flight",
                    "--json",
                    "--fast",

@@ -25,7 +25,7 @@ void expectRefusal(const Answer& answer, int exitCode, const std::string& part) 
 }
 
 TEST(NewPlugin, WritesAFolderOfItsOwn) {
-  for (const char* kind : {"generator", "filter"}) {
+  for (const char* kind : {"generator", "filter", "deformer"}) {
     const Answer answer = Program({"new-plugin", "my-hills", "--kind", kind}).finish();
     EXPECT_EQ(answer.exitCode, 0) << answer.complaint;
     EXPECT_EQ(answer.complaint, "");
@@ -39,7 +39,7 @@ TEST(NewPlugin, RefusesWhatIsNoIdAndNoKind) {
     expectRefusal(Program({"new-plugin", id}).finish(), 2, "lower-case letters");
   }
   expectRefusal(Program({"new-plugin"}).finish(), 2, "missing");
-  expectRefusal(Program({"new-plugin", "a", "--kind", "deformer"}).finish(), 2, "\"deformer\"");
+  expectRefusal(Program({"new-plugin", "a", "--kind", "volcano"}).finish(), 2, "\"volcano\"");
 }
 
 TEST(NewPlugin, RefusesTheIdOfAPluginThatIsThere) {

@@ -94,6 +94,15 @@ TEST(PictureAhead, LooksNorthWhereItStandsAndKnowsWhereThatIs) {
   EXPECT_FALSE(sight.picture.mayShow(mesh));
 }
 
+TEST(PictureAhead, EndsAtTheDistanceThatTheLandIsWantedTo) {
+  const auto land = world();
+  const PictureAhead picture(*land, eyeGoing(0.0, 30.0), {.distance = 5000.0, .fieldOfView = kFieldOfView});
+  EXPECT_TRUE(picture.mayShow(spot(0.0, 4992.0, 0.0)));
+  EXPECT_FALSE(picture.mayShow(spot(0.0, 5012.0, 0.0)));
+  EXPECT_TRUE(picture.mayShow(spot(0.0, 4992.0, -1500.0))) << "across the ground";
+  EXPECT_FALSE(picture.mayShow(spot(2500.0, 4500.0, 0.0)));
+}
+
 TEST(PictureAhead, TakesTheMeshesItMayShowOutOfAScene) {
   const auto ahead = std::make_shared<Mesh>(spot(0.0, 500.0, 0.0));
   const auto behind = std::make_shared<Mesh>(spot(0.0, -500.0, 0.0));

@@ -39,7 +39,7 @@ bool isOneSentence(const std::string& text) {
 TEST(PluginRegistry, FindsGoodModulesAndKnowsAllAboutThem) {
   const auto registry = loadFrom({kModules / "good"});
   EXPECT_TRUE(registry->refused().empty());
-  ASSERT_EQ(registry->plugins().size(), 2U);
+  ASSERT_EQ(registry->plugins().size(), 3U);
   const PluginInfo& flat = registry->plugins()[0];
   EXPECT_EQ(flat.id, "flat");
   EXPECT_EQ(flat.kind, PluginKind::generator);
@@ -48,8 +48,11 @@ TEST(PluginRegistry, FindsGoodModulesAndKnowsAllAboutThem) {
   EXPECT_EQ(flat.file, kModules / "good" / "teren-flat.so");
   ASSERT_EQ(flat.parameters.size(), 1U);
   EXPECT_EQ(flat.parameters[0].name, "height");
-  EXPECT_EQ(registry->plugins()[1].id, "raise");
-  EXPECT_EQ(registry->plugins()[1].kind, PluginKind::filter);
+  EXPECT_EQ(registry->plugins()[1].id, "press");
+  EXPECT_EQ(registry->plugins()[1].kind, PluginKind::deformer);
+  ASSERT_EQ(registry->plugins()[1].parameters.size(), 1U);
+  EXPECT_EQ(registry->plugins()[2].id, "raise");
+  EXPECT_EQ(registry->plugins()[2].kind, PluginKind::filter);
   EXPECT_EQ(registry->find("flat"), &flat);
   EXPECT_EQ(registry->find("fla"), nullptr);
 }
@@ -70,11 +73,26 @@ TEST(PluginRegistry, MakesGeneratorsAndFiltersThatWork) {
   for (const float sample : map.samples()) EXPECT_EQ(sample, 15.0F);
 }
 
+TEST(PluginRegistry, MakesDeformersWhoseStampsSayEverything) {
+  const auto registry = loadFrom({kModules / "good"});
+  const auto deformer = registry->makeDeformer("press");
+  ASSERT_TRUE(deformer.ok()) << deformer.error().message;
+  const HeightMap ground(9, 9);
+  auto surface = (*deformer)->begin({.intervals = 8, .spacing = 0.5}, ground.view());
+  ASSERT_TRUE(surface.ok()) << surface.error().message;
+  const std::array strength = {Values::Entry("strength", 3.0)};
+  const auto values = Values::check(registry->find("press")->parameters, strength, "press");
+  ASSERT_TRUE((*surface)->apply({.east = 2.0, .north = 1.5, .depth = 2.0, .values = *values}).ok());
+  EXPECT_EQ((*surface)->snapshot()->height(2.0, 1.5), -6.0);
+  EXPECT_EQ((*surface)->snapshot()->height(1.5, 2.0), 0.0);
+}
+
 TEST(PluginRegistry, RefusesEveryBrokenModuleWithItsOwnSentence) {
   const auto registry = loadFrom({kModules / "broken", kModules / "good"});
   const std::map<std::string, std::string> expected = {
       {"teren-bad-id.so", "its id \"Bad Id\" is not made of lower-case letters, digits and '-', 1 to 64"},
       {"teren-default-outside.so", "the default 3 of parameter \"height\" is outside the range 0 to 2"},
+      {"teren-no-deformer-maker.so", "it is a deformer but has no makeDeformer"},
       {"teren-no-maker.so", "it is a filter but has no makeFilter"},
       {"teren-no-symbol.so", "it does not export the function terenPlugin"},
       {"teren-no-table.so", "its description has no parameter table"},
@@ -103,13 +121,14 @@ TEST(PluginRegistry, RefusesEveryBrokenModuleWithItsOwnSentence) {
       {"teren-repeated-name.so", "parameter \"height\" is in the table twice"},
       {"teren-throwing-entry.so", "its function terenPlugin threw: the entry point?is unwell"},
       {"teren-undefined-symbol.so", "the loader refuses it: undefined symbol: terenTestNobodyHasThis"},
+      {"teren-unknown-kind.so", "its kind 4 is none of generator (1), filter (2) and deformer (3)"},
       {"teren-wrong-magic.so", "its description does not begin with Teren's magic number"},
   };
   EXPECT_EQ(reasons(*registry), expected);
   for (const RefusedModule& module : registry->refused())
     EXPECT_TRUE(isOneSentence(module.reason)) << module.reason;
   // What is broken leaves the rest running.
-  EXPECT_EQ(registry->plugins().size(), 2U);
+  EXPECT_EQ(registry->plugins().size(), 3U);
 }
 
 TEST(PluginRegistry, UnloadsWhatItRefusesAndKeepsWhatItAccepts) {
@@ -151,7 +170,7 @@ TEST(PluginRegistry, VisitsAFolderOnceHoweverItIsCalled) {
   const ScratchFolder folder;
   fs::create_directory_symlink(kModules / "good", folder / "link");
   const auto registry = loadFrom({kModules / "good", folder / "link", kModules / "good" / "."});
-  EXPECT_EQ(registry->plugins().size(), 2U);
+  EXPECT_EQ(registry->plugins().size(), 3U);
   EXPECT_TRUE(registry->refused().empty());
 }
 
@@ -193,6 +212,12 @@ TEST(PluginRegistry, NamesWhatItHasWhenAnIdIsUnknown) {
             "no filter has the id \"fault\"; there are raise");
   EXPECT_EQ(registry->makeGenerator("raise", {}).error().message,
             "plugin \"raise\" is a filter, not a generator; there are flat");
+  EXPECT_EQ(registry->makeDeformer("raise").error().message,
+            "plugin \"raise\" is a filter, not a deformer; there are press");
+  EXPECT_EQ(registry->makeGenerator("press", {}).error().message,
+            "plugin \"press\" is a deformer, not a generator; there are flat");
+  EXPECT_EQ(registry->makeDeformer("sand").error().message,
+            "no deformer has the id \"sand\"; there are press");
   EXPECT_EQ(loadFrom({})->makeGenerator("fault", {}).error().message,
             "no generator has the id \"fault\"; there are none");
 }
@@ -222,6 +247,11 @@ TEST(PluginRegistry, CatchesConstructorsThatThrow) {
   EXPECT_EQ(refusal(2.0), "plugin \"throwing\" refuses its parameters without saying why");
   EXPECT_EQ(refusal(3.0), "plugin \"throwing\" made nothing of its parameters");
   EXPECT_EQ(refusal(4.0), "plugin \"throwing\" refuses its parameters: an exception without a text");
+}
+
+TEST(PluginRegistry, CatchesMakersOfDeformersThatThrow) {
+  EXPECT_EQ(loadFrom({kModules / "throwing"})->makeDeformer("throwing-deformer").error().message,
+            "plugin \"throwing-deformer\" refuses to be made: the ground is frozen");
 }
 
 TEST(PluginRegistry, SearchesTheVariableThenBesideTheEngineThenTheInstallPrefix) {

@@ -68,8 +68,12 @@ TEST(SelectionAllocations, OfChoosingAreNoneWhileTheCutIsNoLargerThanBefore) {
   for (int level = 1; level <= 9; ++level) ground.errors.push_back(0.25 * std::exp2(level));
   Selection selection(ground);
   const auto look = [&](int step) {
-    const Viewer viewer{
-        *Position::fromMetres(40.0 * step, 10.0, 64.0), 100.0, {.distance = 8000.0}, 300.0, 0.0, 0.0};
+    const Viewer viewer{*Position::fromMetres(40.0 * step, 10.0, 64.0),
+                        100.0,
+                        {.pixelError = 2.0, .distance = 8000.0},
+                        300.0,
+                        0.0,
+                        0.0};
     const long before = allocationCount();
     EXPECT_TRUE(selection.choose({&viewer, 1}, 1.0));
     selection.keep();

@@ -3,8 +3,11 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <random>
 #include <set>
 #include <string>
 #include <thread>
@@ -15,7 +18,9 @@
 #include <gtest/gtest.h>
 
 #include "teren/Engine.h"
+#include "teren/PixelError.h"
 
+#include "apps/check/HeapUse.h"
 #include "tests/engine/stream/FaultWorld.h"
 #include "tests/engine/stream/NodeErrorsWait.h"
 
@@ -154,7 +159,10 @@ TEST_P(Detail, SettlesToOneSurfaceOfManyLevelsFineUnderTheEyeAndCoarseFarAway) {
   EXPECT_EQ(nodes, figures.nodes);
   expectOneSurface(*flight.engine->scene(), flight.world->intervals());
   const Position eye = flight.puppet->place.position;
-  EXPECT_EQ(*flight.engine->drawnHeight(eye), *flight.engine->finestHeight(eye));
+  DrawnPoint lying;
+  flight.engine->sceneQuery()->points({&eye, 1}, {&lying, 1});
+  EXPECT_EQ(lying.level, 0);
+  EXPECT_EQ(lying.height, *flight.engine->finestHeight(eye));
 }
 
 TEST_P(Detail, IsOneSurfaceInEveryPictureOfAFlightAndNothingThatWasDrawnInTheViewIsMissing) {
@@ -226,6 +234,63 @@ TEST_P(Detail, HoldsTheCapAtEveryMomentAndPaysWithPixelError) {
   EXPECT_LT(flight.engine->figures().nodes, ample.engine->figures().nodes);
 }
 
+std::size_t meshBytes(const Scene& scene) {
+  std::size_t sum = 0;
+  for (const auto& mesh : scene.meshes()) sum += mesh->bytes();
+  return sum;
+}
+
+TEST_P(Detail, IsAllThereAfterLeapsAndTurnsUnderACapThatIsFull) {
+  DetailFlight flight(GetParam(), {.pixelError = 3.0, .distance = 3000.0}, 12 * kMiB);
+  for (int leap = 0; leap < 6; ++leap) {
+    for (int step = 0; step < 60; ++step) {
+      flight.moveTo(1e5 * leap + 40.0 * step, 300.0 * leap);
+      flight.engine->update(1.0 / 60.0, microseconds(400));
+      flight.engine->setRendererBytes(meshBytes(*flight.engine->scene()));
+      ASSERT_LE(flight.engine->figures().bytes, 12 * kMiB);
+    }
+    flight.engine->settle();
+    flight.engine->setRendererBytes(meshBytes(*flight.engine->scene()));
+    EXPECT_EQ(flight.engine->figures().pending, 0U) << "leap " << leap;
+    ASSERT_LE(flight.engine->figures().bytes, 12 * kMiB);
+  }
+}
+
+TEST_P(Detail, CountsAllThatItHasFromTheHeapAtEveryMoment) {
+  const DetailSettings sharp{.pixelError = 6.0, .distance = 3000.0};
+  DetailFlight(GetParam(), sharp).engine->settle();  // what a program takes once
+  DetailFlight flight(GetParam(), sharp, 12 * kMiB);
+  const std::size_t before = check::heapBytes() - flight.engine->figures().bytes;
+  for (int step = 0; step < 400; ++step) {
+    const double leap = step % 100 == 99 ? 1e5 * step : 0.0;
+    flight.moveTo(leap + 20.0 * step, 200.0 * std::sin(0.05 * step));
+    flight.engine->update(1.0 / 60.0, microseconds(2000));
+    ASSERT_TRUE(flight.engine->sceneQuery());
+    const std::size_t held = check::heapBytes() - before, counted = flight.engine->figures().bytes;
+    ASSERT_LE(held, counted + counted / 32 + kMiB / 8) << "step " << step;
+    ASSERT_LE(counted, 12 * kMiB);
+  }
+  EXPECT_GE(check::heapBytes() - before, flight.engine->figures().bytes / 2) << "no cap is for so much air";
+}
+
+TEST_P(Detail, KeepsNoSnapshotButTheLastWhileItRests) {
+  DetailFlight flight(GetParam());
+  ASSERT_TRUE(test::measureNodeErrors(*flight.engine));
+  flight.engine->settle();
+  std::weak_ptr<const Scene> before;
+  for (const double east : {1500.0, 0.0}) {
+    flight.moveTo(east, 20.0);
+    std::uint64_t updates = 0;
+    do {
+      const std::weak_ptr<const Scene> now = flight.engine->scene();
+      flight.engine->update(0.0, microseconds(500));
+      if (now.lock() != flight.engine->scene()) before = now, ++updates;
+    } while (flight.engine->figures().pending > 0 || flight.engine->figures().measuring);
+    EXPECT_GT(updates, 1U);
+    EXPECT_TRUE(before.expired());
+  }
+}
+
 TEST(DetailOfWorkers, IsGivenToThemAsFastAsTheyMakeIt) {
   DetailFlight flight(1, {.pixelError = 15.0, .distance = 3000.0});
   flight.engine->update(0.0, milliseconds(20));
@@ -238,6 +303,62 @@ TEST(DetailOfWorkers, IsGivenToThemAsFastAsTheyMakeIt) {
   }
   EXPECT_GT(wanted, 200U);
   EXPECT_LT(updates, wanted / 3);
+}
+
+/// Where the land is farthest above its mean, of places 64 m apart.
+Position highestPlace(const World& world, double& height) {
+  Position found;
+  height = -INFINITY;
+  for (int row = -200; row < 200; ++row) {
+    for (int column = -200; column < 200; ++column) {
+      const Position place = *Position::fromMetres(64.0 * column, 64.0 * row, world.pitch());
+      const double here = world.height(place);
+      if (here > height) std::tie(found, height) = std::pair(place, here);
+    }
+  }
+  return found;
+}
+
+TEST_P(Detail, IsAsFineAsWantedOverSummitsBeyondThreeDeviationsToo) {
+  DetailFlight flight(GetParam(), {.pixelError = 80.0, .distance = 3000.0});
+  double summit = 0.0;
+  flight.puppet->place.position = highestPlace(*flight.world, summit);
+  ASSERT_GT(summit, flight.world->mean() + 3.2 * flight.world->deviation());
+  flight.puppet->place.height = summit + 2.0;
+  flight.engine->settle();
+  ASSERT_TRUE(test::measureNodeErrors(*flight.engine));
+  flight.engine->settle();
+  const Motion eye = flight.puppet->place;
+  const DetailSettings detail = *flight.engine->options().view.detail;
+  const double lens = lensPixels(detail.lines, detail.fieldOfView);
+  const PixelError seen =
+      pixelError(*flight.world, *flight.engine->scene(), {eye.position, eye.height, lens});
+  EXPECT_LE(seen.max, detail.pixelError * (1.0 + 1e-6));
+}
+
+TEST_P(Detail, IsAsFineAsWantedThoughSomeNodesAreRougherThanOthersOfTheirLevel) {
+  double summit = 0.0;
+  for (const double pixelError : {5.0, 10.0, 20.0}) {
+    DetailFlight flight(GetParam(), {.pixelError = pixelError, .distance = 3000.0});
+    flight.puppet->place.position = highestPlace(*flight.world, summit);
+    flight.puppet->place.height = summit + 30.0;
+    ASSERT_TRUE(test::measureNodeErrors(*flight.engine));
+    flight.engine->settle();
+    const Motion eye = flight.puppet->place;
+    const DetailSettings detail = *flight.engine->options().view.detail;
+    const double lens = lensPixels(detail.lines, detail.fieldOfView);
+    const Eye from{eye.position, eye.height, lens};
+    const auto scene = flight.engine->scene();
+    std::size_t looked = 0;
+    for (const auto& mesh : scene->meshes()) {
+      const double own = drawnError(*flight.world, *mesh);
+      const double distance = own * lens / teren::pixelError(*flight.world, *mesh, from);
+      if (mesh->nodeLevel == 0 || distance > 0.99 * detail.distance) continue;  // finest; not asked for
+      ++looked;
+      ASSERT_LE(teren::pixelError(*flight.world, *mesh, from, scene->morph()), pixelError * (1.0 + 1e-6));
+    }
+    EXPECT_GT(looked, 10U);
+  }
 }
 
 TEST_P(Detail, ComesAndGoesWithThePixelErrorTheDistanceAndThePicture) {
@@ -261,10 +382,87 @@ TEST_P(Detail, ComesAndGoesWithThePixelErrorTheDistanceAndThePicture) {
   EXPECT_GT(nodesWith({.pixelError = 30.0, .distance = 3000.0, .lines = 1500.0}), before);
 }
 
+TEST(DrawnHeight, IsThatOfTheSnapshotAsItIsSeenToTheBitWhereverLevelsMeet) {
+  DetailFlight flight(0);
+  flight.engine->settle();
+  ASSERT_TRUE(flight.engine->sceneQuery()) << "which another follows";
+  flight.moveTo(700.0, -400.0);
+  flight.engine->settle();
+  const auto lying = flight.engine->sceneQuery();
+  const SceneQuery query =
+      lying->seenFrom({flight.puppet->place.position, flight.puppet->place.height}, lying->scene()->morph());
+  std::mt19937_64 random(20'260'807);
+  std::size_t there = 0, betweenLevels = 0, moved = 0;
+  const auto expectTheSame = [&](const Position& place) {
+    DrawnPoint point, unmoved;
+    query.points({&place, 1}, {&point, 1});
+    lying->points({&place, 1}, {&unmoved, 1});
+    moved += point.height != unmoved.height ? 1U : 0U;
+    const std::optional<double> height = flight.engine->drawnHeight(place);
+    ASSERT_EQ(height.has_value(), point.there);
+    if (height) {
+      ASSERT_EQ(*height, point.height);
+    }
+    there += point.there ? 1U : 0U;
+  };
+  std::uniform_real_distribution<double> metres(-6000.0, 6000.0);
+  for (int trial = 0; trial < 20'000; ++trial) {
+    expectTheSame(*Position::fromMetres(metres(random), metres(random), flight.world->pitch()));
+  }
+  for (const auto& mesh : flight.engine->scene()->meshes()) {  // their vertices, and the middles of triangles
+    if (mesh->columns == mesh->rows && mesh->indices->size() == 6U * mesh->columns * mesh->rows) continue;
+    const double step = flight.world->spacing(mesh->level);
+    const double west = static_cast<double>(mesh->originColumn) * flight.world->spacing(0);
+    const double south = static_cast<double>(mesh->originRow) * flight.world->spacing(0);
+    for (std::size_t k = 0; k + 2 < mesh->indices->size(); k += 3) {
+      const auto corner = [&](std::size_t c) { return mesh->vertices[(*mesh->indices)[k + c]]; };
+      const SurfaceVertex a = corner(0), b = corner(1), c = corner(2);
+      expectTheSame(
+          *Position::fromMetres(west + step * a.column, south + step * a.row, flight.world->pitch()));
+      expectTheSame(*Position::fromMetres(west + step * (a.column + b.column + c.column) / 3.0,
+                                          south + step * (a.row + b.row + c.row) / 3.0,
+                                          flight.world->pitch()));
+      ++betweenLevels;
+    }
+    ASSERT_FALSE(testing::Test::HasFatalFailure());
+  }
+  EXPECT_GT(there, 10'000U);
+  EXPECT_GT(betweenLevels, 1000U);
+  EXPECT_GT(moved, 5000U);
+}
+
+TEST(DrawnHeight, AskedForInEveryUpdateKeepsNoSnapshot) {
+  class Asker final : public Object {
+   public:
+    void update(double, const Ground& ground) override { heights += ground.height(Position{}).has_value(); }
+    Motion motion() const override { return {}; }
+    int heights = 0;
+  };
+  DetailFlight flight(0);
+  flight.engine->settle();
+  const auto& asker = static_cast<const Asker&>(flight.engine->add(std::make_unique<Asker>()));
+  for (int turn = 0; turn < 3; ++turn) {
+    flight.moveTo(100.0 * turn, 0.0);
+    flight.engine->settle();
+    flight.engine->update(0.0, milliseconds(1));
+  }
+  EXPECT_EQ(asker.heights, 3);
+  const std::size_t meshes = flight.engine->scene()->meshes().size();
+  EXPECT_EQ(flight.engine->sceneQuery()->newMeshes(), meshes) << "nobody has asked for an index before";
+  std::weak_ptr<const Scene> asked = flight.engine->scene();
+  ASSERT_TRUE(flight.engine->drawnHeight(flight.puppet->place.position).has_value());
+  flight.moveTo(1e5, -2e5);
+  while (!asked.expired() && asked.lock() == flight.engine->scene()) {
+    flight.engine->update(0.0, milliseconds(20));
+  }
+  flight.engine->update(0.0, microseconds(0));  // lets go of what the last one has replaced
+  EXPECT_TRUE(asked.expired()) << "the index of all triangles was made for one height";
+}
+
 TEST_P(Detail, LetsSnapshotsGoThatNobodyAsksAnyMore) {
   DetailFlight flight(GetParam());
   flight.engine->settle();
-  ASSERT_TRUE(flight.engine->drawnHeight(flight.puppet->place.position).has_value());
+  ASSERT_TRUE(flight.engine->sceneQuery());
   const std::weak_ptr<const Scene> asked = flight.engine->scene();
   for (const double east : {1e5, 2e5, 3e5}) {  // the one it has been asked about last is kept until the next
     flight.moveTo(east, -2e5);
@@ -331,6 +529,94 @@ TEST_P(Detail, FollowsSeveralObjectsAtOnce) {
   EXPECT_TRUE(flight.isDrawnAround(*flight.puppet, 2900.0));
   EXPECT_TRUE(flight.isDrawnAround(*flight.other, 1400.0));
   EXPECT_FALSE(flight.engine->drawnHeight(*Position::fromMetres(30'000.0, 0.0, 64.0)).has_value());
+}
+
+/// [px] How far the ground within `reach` [m] of an eye, moved like this, is from level 0 at most.
+double worstSeen(const TwoViews& flight, const Motion& eye, const Morph& morph, double reach, double lens) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> metres(-reach, reach);
+  std::vector<Position> places;
+  for (int k = 0; k < 4000; ++k) {
+    places.push_back(*eye.position.movedBy(metres(random), metres(random), flight.world->pitch()));
+  }
+  std::vector<DrawnPoint> points(places.size());
+  flight.engine->sceneQuery()->seenFrom({eye.position, eye.height}, morph).points(places, points);
+  double worst = 0.0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Offset way = offset(eye.position, places[k], flight.world->pitch());
+    const double finest = flight.world->query(places[k]).drawn;
+    const double error = std::fabs(points[k].height - finest);
+    EXPECT_TRUE(points[k].there);
+    EXPECT_LE(error, points[k].error + 1e-6);
+    worst =
+        std::max(worst, error * lens / std::max(1.0, std::hypot(way.east, way.north, finest - eye.height)));
+  }
+  return worst;
+}
+
+TEST(DetailOfSeveral, EachPictureMovesTheLandWithItsOwnEyeAndPixelError) {
+  TwoViews flight(0);
+  flight.moveOther(0.0);
+  flight.other->place.position = *flight.puppet->place.position.movedBy(900.0, 300.0, flight.world->pitch());
+  const DetailSettings fine{.pixelError = 4.0, .distance = 1500.0, .lines = 600.0};
+  ASSERT_TRUE(flight.engine->setView(1, fine).ok());
+  flight.engine->settle();
+  ASSERT_TRUE(test::measureNodeErrors(*flight.engine));
+  flight.engine->settle();
+  ASSERT_EQ(flight.engine->figures().pixelError, 30.0) << "not under the cap";
+  const Morph &shared = flight.engine->scene()->morph(), own = flight.engine->morph(1);
+  EXPECT_EQ(flight.engine->morph(0), shared);
+  EXPECT_EQ(flight.engine->morph(17), shared) << "nobody's";
+  const double lens = lensPixels(fine.lines, fine.fieldOfView);
+  EXPECT_NEAR(static_cast<double>(own.tolerance()), 4.0 / lens, 1e-9);
+  const double seen = worstSeen(flight, flight.other->place, own, 900.0, lens);
+  EXPECT_LE(seen, 4.0);
+  EXPECT_GT(worstSeen(flight, flight.other->place, shared, 900.0, lens), 2.0 * seen)
+      << "with the pixel error of another picture";
+  const DetailSettings& coarse = *flight.engine->options().view.detail;
+  EXPECT_LE(
+      worstSeen(flight, flight.puppet->place, shared, 900.0, lensPixels(coarse.lines, coarse.fieldOfView)),
+      30.0)
+      << "of land that is finer than it needs";
+  flight.engine->setActive(1);
+  EXPECT_EQ(flight.engine->morph(1), shared) << "the active one has the engine's";
+}
+
+TEST(DetailOfSeveral, CountTheActiveObjectOnce) {
+  DetailFlight flight(0);
+  const DetailSettings detail{.pixelError = 30.0, .distance = 1000.0};
+  for (std::size_t count = 1; count <= Engine::kMostViews; ++count) {
+    flight.engine->add(std::make_unique<Puppet>());
+  }
+  for (std::size_t object = 0; object < Engine::kMostViews; ++object) {
+    EXPECT_TRUE(flight.engine->setView(object, detail).ok()) << object;
+  }
+  EXPECT_FALSE(flight.engine->setView(Engine::kMostViews, detail).ok());
+}
+
+/// Updates until the scene is another.
+void awaitAnotherScene(Engine& engine) {
+  for (const auto before = engine.scene(); engine.scene() == before;) engine.update(0.0, milliseconds(20));
+}
+
+TEST(DetailQuery, IsIndexedAnewOnlyWhereItIsNewHoweverManySnapshotsNobodyAskedAbout) {
+  DetailFlight flight(0);
+  flight.engine->settle();
+  ASSERT_TRUE(test::measureNodeErrors(*flight.engine));
+  flight.engine->settle();
+  const auto first = flight.engine->scene();
+  EXPECT_EQ(flight.engine->sceneQuery()->newMeshes(), first->meshes().size());
+  std::weak_ptr<const SceneQuery> asked = flight.engine->sceneQuery();
+  for (int snapshots = 0; snapshots < 3; ++snapshots) {
+    flight.moveTo(70.0 * (snapshots + 1), 20.0);
+    awaitAnotherScene(*flight.engine);
+  }
+  EXPECT_TRUE(asked.expired());
+  const auto query = flight.engine->sceneQuery();
+  EXPECT_EQ(query->scene(), flight.engine->scene());
+  EXPECT_EQ(query->newMeshes(), difference(*first, *query->scene()).added.size());
+  EXPECT_GT(query->newMeshes(), 0U);
+  EXPECT_LT(query->newMeshes(), first->meshes().size() / 2);
 }
 
 TEST(DetailOfSeveral, IsRefusedWhereItCannotBe) {

@@ -19,56 +19,19 @@
 
 #include "tests/engine/stream/FaultWorld.h"
 #include "tests/engine/stream/NodeErrorsWait.h"
+#include "tests/engine/stream/SeenScene.h"
 #include "world/NodeErrors.h"
 
 namespace teren {
 namespace {
 
-using Place = std::pair<std::int64_t, std::int64_t>;  // level-0 samples
+using test::distanceTo, test::drawnHeight, test::placeOf, test::sceneSeenFrom;
+using Place = test::SamplePlace;
+using Point = test::EyePoint;
 
 /// [0, 1)
 double unit(RandomSequence& random) {
   return static_cast<double>(random.nextBits(53)) * 0x1p-53;
-}
-
-/// An eye in metres from the world's middle.
-struct Point {
-  double east = 0.0, north = 0.0, height = 0.0;
-};
-
-Place placeOf(const Mesh& mesh, const SurfaceVertex& vertex) {
-  const std::int64_t stride = std::int64_t{1} << mesh.level;
-  return {mesh.originColumn + vertex.column * stride, mesh.originRow + vertex.row * stride};
-}
-
-/// As the shader computes it, from the sample next to the eye.
-float distanceTo(const Scene& scene, const Point& eye, const Place& place, float height) {
-  const auto spacing = static_cast<float>(scene.spacing());
-  const auto column = static_cast<std::int64_t>(std::floor(eye.east / scene.spacing()));
-  const auto row = static_cast<std::int64_t>(std::floor(eye.north / scene.spacing()));
-  const auto east = static_cast<float>(eye.east - static_cast<double>(column) * scene.spacing());
-  const auto north = static_cast<float>(eye.north - static_cast<double>(row) * scene.spacing());
-  const float x = static_cast<float>(place.first - column) * spacing - east;
-  const float y = static_cast<float>(place.second - row) * spacing - north;
-  const float z = height - static_cast<float>(eye.height);
-  return std::sqrt(x * x + y * y + z * z);
-}
-
-float drawnHeight(const Scene& scene, const Point& eye, const Mesh& mesh, const SurfaceVertex& vertex) {
-  return scene.morph().height(vertex, distanceTo(scene, eye, placeOf(mesh, vertex), vertex.height));
-}
-
-/// The scene as an eye sees it, with every vertex where it is drawn.
-std::shared_ptr<const Scene> seenFrom(const Scene& scene, const Point& eye) {
-  std::vector<std::shared_ptr<const Mesh>> meshes;
-  for (const auto& mesh : scene.meshes()) {
-    auto moved = std::make_shared<Mesh>(*mesh);
-    for (SurfaceVertex& vertex : moved->vertices) {
-      vertex.coarserHeight = vertex.height = drawnHeight(scene, eye, *mesh, vertex);
-    }
-    meshes.push_back(std::move(moved));
-  }
-  return std::make_shared<const Scene>(scene.serial(), scene.spacing(), std::move(meshes));
 }
 
 class Puppet final : public Object {
@@ -120,6 +83,26 @@ TEST(Morph, GoesOnlySoFarThatTheErrorStaysBelowWhatTheDistanceAllows) {
   EXPECT_EQ(morph.share(SurfaceVertex::kFixed, 1e6F), 0.0F);
   EXPECT_EQ(Morph().share(0, 1e6F), 0.0F);
   EXPECT_EQ(Morph(0.0, errors).share(3, 1e6F), 0.0F);
+}
+
+TEST(Morph, PutsAVertexBetweenItsHeightsToTheRounding) {
+  const Morph morph(0.002, std::vector<double>{0.0, 1.0, 3.0});
+  RandomSequence random(8);
+  int beyond = 0;
+  for (int trial = 0; trial < 200'000; ++trial) {
+    SurfaceVertex vertex;
+    vertex.height = static_cast<float>(2000.0 * unit(random) - 1000.0);
+    const float coarser = trial % 2 == 0 ? static_cast<float>(2000.0 * unit(random) - 1000.0)
+                                         : std::nextafter(vertex.height, 2000.0F);
+    vertex.setCoarser(trial % 3, coarser, 0, 0);
+    const float drawn = morph.height(vertex, static_cast<float>(2000.0 * unit(random)));
+    const auto [low, high] = std::minmax(vertex.height, coarser);
+    const float rounding = kMorphRounding * std::max(std::fabs(low), std::fabs(high));
+    ASSERT_GE(drawn, low - rounding);
+    ASSERT_LE(drawn, high + rounding);
+    beyond += drawn < low || drawn > high ? 1 : 0;
+  }
+  EXPECT_GT(beyond, 100) << "rounding does take them beyond";
 }
 
 TEST(Morph, MovesNothingInAViewOfOneLevel) {
@@ -206,7 +189,7 @@ TEST(Morph, ShowsNoMoreErrorThanIsTold) {
   EXPECT_EQ(pixelError(*flight.world, *scene, high).max, most);
   EXPECT_GT(most, 1.05 * unmoved) << "seen from above all have moved";
   // And the truth at random places.
-  const SceneQuery query(seenFrom(*scene, eye), flight.world->intervals());
+  const SceneQuery query(sceneSeenFrom(*scene, eye), flight.world->intervals());
   RandomSequence random(6);
   std::size_t seen = 0;
   double worst = 0.0;
@@ -225,6 +208,52 @@ TEST(Morph, ShowsNoMoreErrorThanIsTold) {
   EXPECT_GT(seen, 3000U);
   EXPECT_LE(worst, told.max);
   EXPECT_GT(worst, 0.1 * told.max);
+}
+
+TEST(Morph, OfAnotherEyeShowsNoMoreErrorThanIsTold) {
+  Flight flight(12.0);
+  const Point eye{10.0, 20.0, 60.0};
+  flight.settleAt(eye);
+  ASSERT_TRUE(test::measureNodeErrors(*flight.engine));
+  flight.settleAt(eye);
+  const auto scene = flight.engine->scene();
+  const DetailEye movedWith{flight.puppet->place.position, eye.height};
+  RandomSequence random(12);
+  std::size_t beyondOneEye = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const Point camera{eye.east + 800.0 * unit(random) - 400.0, eye.north + 800.0 * unit(random) - 400.0,
+                       120.0 * unit(random) - 40.0};
+    const Eye looks{*Position::fromMetres(camera.east, camera.north, flight.world->pitch()), camera.height,
+                    flight.lens()};
+    double most = 0.0;
+    for (const auto& mesh : scene->meshes()) {
+      const double told = pixelError(*flight.world, *mesh, looks, scene->morph(), movedWith);
+      const double ofOneEye = pixelError(*flight.world, *mesh, looks, scene->morph());
+      most = std::max(most, told);
+      if (mesh->nodeLevel == flight.world->topLevel()) continue;
+      const double own = drawnError(*flight.world, *mesh);
+      const double next = std::max(own, flight.world->nodeErrors().estimate(mesh->nodeLevel + 1));
+      for (const SurfaceVertex& vertex : mesh->vertices) {
+        if (vertex.level() != mesh->nodeLevel) continue;
+        const Place place = placeOf(*mesh, vertex);
+        const auto t = static_cast<double>(
+            scene->morph().share(vertex.level(), distanceTo(*scene, eye, place, vertex.height)));
+        const double away =
+            std::max(static_cast<double>(distanceTo(*scene, camera, place, vertex.height)), kNearestGround);
+        const double seen = (own + t * (next - own)) / away * flight.lens();
+        ASSERT_LE(seen, told * 1.0001 + 1e-9);
+        beyondOneEye += seen > 1.01 * ofOneEye ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(pixelError(*flight.world, *scene, looks, movedWith).max, most);
+  }
+  EXPECT_GT(beyondOneEye, 1000U) << "more than if vertices moved with the camera";
+  // An eye beside it tells what the eye itself does.
+  const Eye itself{movedWith.position, movedWith.height, flight.lens()};
+  Eye beside = itself;
+  beside.height += 0.01;
+  EXPECT_NEAR(pixelError(*flight.world, *scene, beside, movedWith).max,
+              pixelError(*flight.world, *scene, itself).max, 0.01);
 }
 
 /// [px] by how much two scenes differ at the vertices of the first that are not in both, as an eye sees them.
@@ -268,7 +297,7 @@ TEST(Morph, LetsNothingJumpByMoreThanThePixelErrorWhenNodesChangePlaces) {
         all.insert(all.end(), pixels.begin(), pixels.end());
       }
     };
-    compare(*seenFrom(*before, eye), *seenFrom(*after, eye), jumps);
+    compare(*sceneSeenFrom(*before, eye), *sceneSeenFrom(*after, eye), jumps);
     compare(*before, *after, without);
     before = after;
   }

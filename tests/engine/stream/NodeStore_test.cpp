@@ -115,12 +115,28 @@ TEST_F(NodeStoreTest, GivesMeshesIncreasingIdsInTheOrderTheyAreDrawn) {
                              [](const auto& a, const auto& b) { return a->id < b->id; }));
 }
 
+TEST_F(NodeStoreTest, CountsWhatWasDroppedAsLongAsASnapshotMayHaveIt) {
+  ASSERT_TRUE(apply({{}, {west_, east_}}));
+  std::shared_ptr<const Scene> scene = store_.snapshot();
+  const std::size_t drawn = store_.bytes(), meshes = store_.meshBytes();
+  ASSERT_TRUE(apply({{west_, east_}, {}}));
+  EXPECT_EQ(store_.meshBytes(), 0U);
+  EXPECT_GE(store_.bytes() + drawn / 4, drawn) << "the last snapshot has it";
+  EXPECT_FALSE(store_.letGoOfOldSnapshots());
+  scene = store_.snapshot();
+  EXPECT_GE(store_.bytes() + drawn / 4, drawn) << "the one before may be held";
+  EXPECT_TRUE(store_.letGoOfOldSnapshots());
+  EXPECT_LE(store_.bytes() + meshes, drawn);
+}
+
 TEST_F(NodeStoreTest, CountsNoMoreThanItSaysANodeAndAChangeCost) {
   const std::size_t held = store_.bytes();
   EXPECT_LE(held, 5 * store_.heldBytes());
   std::size_t before = held;
   for (const NodeKey& key : {west_, east_, north_}) {
     ASSERT_TRUE(apply({{}, {key}}));
+    store_.snapshot();
+    store_.letGoOfOldSnapshots();
     const std::size_t indices = 200 * sizeof(std::uint32_t) * kIntervals;
     EXPECT_LE(store_.bytes() - before, store_.piecesBytes() + indices);
     before = store_.bytes();

@@ -33,6 +33,14 @@ class Patchwork {
       : intervals_(intervals), spacing_(spacing), shape_(std::move(shape)) {}
 
   void add(const PatchworkNode& node) { nodes_.push_back(node); }
+  /// Gives every vertex a next coarser surface, and a level: both functions of its place, so that neighbours
+  /// agree. `morph` says how they move to it.
+  void letMove(Shape coarser, std::function<int(std::int64_t column, std::int64_t row)> level,
+               const Morph& morph) {
+    coarser_ = std::move(coarser);
+    level_ = std::move(level);
+    morph_ = morph;
+  }
   /// Divides the square of a node at random, down to level 0.
   template <class Dice>
   void addDivided(const PatchworkNode& node, Dice& dice) {
@@ -76,12 +84,12 @@ class Patchwork {
       mesh->id = firstId++;
       mesh->minHeight = mesh->maxHeight = mesh->vertices.front().height;
       for (const SurfaceVertex& vertex : mesh->vertices) {
-        mesh->minHeight = std::min(mesh->minHeight, vertex.height);
-        mesh->maxHeight = std::max(mesh->maxHeight, vertex.height);
+        mesh->minHeight = std::min({mesh->minHeight, vertex.height, vertex.coarserHeight});
+        mesh->maxHeight = std::max({mesh->maxHeight, vertex.height, vertex.coarserHeight});
       }
       numbered.push_back(mesh);
     }
-    return std::make_shared<const Scene>(1, spacing_, std::move(numbered));
+    return std::make_shared<const Scene>(1, spacing_, std::move(numbered), morph_);
   }
 
  private:
@@ -170,14 +178,19 @@ class Patchwork {
     SurfaceVertex vertex;
     vertex.column = static_cast<std::int16_t>(column);
     vertex.row = static_cast<std::int16_t>(row);
-    vertex.height = shape_(mesh.originColumn + (std::int64_t{column} << mesh.level),
-                           mesh.originRow + (std::int64_t{row} << mesh.level));
+    const std::int64_t x = mesh.originColumn + (std::int64_t{column} << mesh.level);
+    const std::int64_t y = mesh.originRow + (std::int64_t{row} << mesh.level);
+    vertex.height = shape_(x, y);
+    vertex.coarserHeight = vertex.height;
+    if (level_ && level_(x, y) < SurfaceVertex::kFixed) vertex.setCoarser(level_(x, y), coarser_(x, y), 0, 0);
     mesh.vertices.push_back(vertex);
   }
 
   int intervals_, finest_ = 64;
   double spacing_;
-  Shape shape_;
+  Shape shape_, coarser_;
+  std::function<int(std::int64_t, std::int64_t)> level_;
+  Morph morph_;
   std::vector<PatchworkNode> nodes_;
   std::vector<std::shared_ptr<Mesh>> grounds_;
   GridIndices grids_;

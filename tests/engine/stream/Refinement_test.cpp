@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -24,7 +25,9 @@ Selection::Ground ground() {
   return ground;
 }
 
-/// A drawn set on its way to what a viewer wants, its heights arriving in random order.
+/// A drawn set on its way to what a viewer wants, its heights arriving in random order. As in a Streamer, one
+/// change at a time is on its way to the drawn set, and the viewer looks elsewhere, heights arrive and others
+/// are dropped meanwhile.
 class Way {
  public:
   explicit Way(std::uint64_t seed) : dice_(seed) {}
@@ -40,15 +43,22 @@ class Way {
       step();
     }
     selection_.keep();
+    dropUnwanted();
   }
   /// One node comes, and whatever is possible is done; false once everything is there and drawn.
   bool goOn(bool arrives = true) {
     const bool arrived = arrives && arrive();
     bool changed = false;
-    while (refinement_.mayChange()) changed = step() || changed;
+    while (joining_ || refinement_.mayChange()) {
+      changed = step() || changed;
+      if (joining_ && dice_.whole(0, 3) == 0) break;
+    }
+    dropUnwanted();
     EXPECT_EQ(refinement_.missing(), missing());
     return changed || arrived;
   }
+  /// Changes that were ready, and what they were made from was there no more.
+  int refused() const { return refused_; }
 
   template <class Choice>
   void arriveAll(const Choice& isChosen) {
@@ -94,22 +104,36 @@ class Way {
     refinement_.noteHeld(key);
   }
   bool step() {
+    if (joining_) {
+      draw(*std::exchange(joining_, nullptr));
+      return true;
+    }
     const DrawnChange change = refinement_.next(static_cast<std::size_t>(dice_.whole(1, 3)));
     if (change.add.empty() && change.remove.empty()) return false;
     if (dice_.whole(0, 9) == 0) {
       refinement_.again(change);
       return true;
     }
-    draw(change);
+    joining_ = std::make_unique<JoinTask>(store_, change);
     return true;
   }
+  void dropUnwanted() {
+    while (const std::optional<NodeKey> key = refinement_.takeUnwanted()) {
+      if (!store_.isDrawn(*key) && !refinement_.isWanted(*key)) store_.erase(*key);
+    }
+  }
   /// The ground that was drawn and is still within the roots must be drawn afterwards, and none twice.
-  void draw(const DrawnChange& change) {
+  void draw(JoinTask& task) {
     const std::vector<NodeKey> before = drawn();
-    JoinTask task(store_, change);
     while (!task.step(Slice::unlimited())) {
     }
-    ASSERT_TRUE(store_.apply(task.change(), task.pieces()));
+    if (!store_.apply(task.change(), task.pieces())) {
+      const auto isGone = [&](const NodeKey& key) { return !store_.heights(key); };
+      ASSERT_TRUE(std::any_of(task.change().add.begin(), task.change().add.end(), isGone));
+      refinement_.again(task.change());
+      ++refused_;
+      return;
+    }
     refinement_.noteChange(task.change());
     const std::vector<NodeKey> after = drawn();
     for (const NodeKey& key : after) {
@@ -131,6 +155,8 @@ class Way {
   Selection selection_{ground()};
   NodeStore store_{1.0, kIntervals};
   Refinement refinement_{store_};
+  std::unique_ptr<JoinTask> joining_;
+  int refused_ = 0;
 };
 
 bool isReached(const Way& way) {
@@ -139,7 +165,8 @@ bool isReached(const Way& way) {
     const Cut::Index index = way.cut().find(key);
     drawn += index != Cut::kNone && way.cut()[index].isLeaf() ? 1U : 0U;
   });
-  return drawn == way.cut().leaves() && way.store().drawnCount() == drawn;
+  return drawn == way.cut().leaves() && way.store().drawnCount() == drawn &&
+         way.store().nodes().size() == way.cut().size();  // all that is held is wanted
 }
 
 TEST(Refinement, ReachesTheCutWhateverComesFirstWithoutAHoleOnTheWay) {
@@ -189,6 +216,39 @@ TEST(Refinement, FollowsAViewerWhoNeverWaitsForIt) {
   while (way.goOn() && !testing::Test::HasFatalFailure()) {
   }
   EXPECT_TRUE(isReached(way));
+}
+
+TEST(Refinement, ThinksAgainOfChangesWhoseNodesWereDroppedWhileTheyWereMade) {
+  Dice dice(12);
+  Way way(9);
+  for (int step = 0; step < 200;
+       ++step) {  // to and fro, so that what is on its way is unwanted again and again
+    way.lookFrom(dice.between(0.0, 2500.0), dice.between(0.0, 2500.0));
+    for (int k = 0; k < 30; ++k) way.goOn();
+    ASSERT_FALSE(testing::Test::HasFatalFailure());
+  }
+  while (way.goOn() && !testing::Test::HasFatalFailure()) {
+  }
+  EXPECT_TRUE(isReached(way));
+  EXPECT_GT(way.refused(), 0);
+}
+
+TEST(Refinement, TakesNoMoreRoomForChangesRefusedAgainAndAgain) {
+  Way way(5);
+  way.lookFrom(0.0, 0.0);
+  while (way.goOn()) {
+  }
+  way.lookFrom(20'000.0, 0.0);  // all that is drawn has to leave
+  const DrawnChange first = way.refinement().next(1);
+  ASSERT_FALSE(first.remove.empty());
+  way.refinement().again(first);
+  const std::size_t bytes = way.refinement().bytes();
+  for (int refusal = 0; refusal < 1000; ++refusal) {
+    const DrawnChange change = way.refinement().next(1);
+    ASSERT_EQ(change.remove, first.remove);
+    way.refinement().again(change);
+  }
+  EXPECT_EQ(way.refinement().bytes(), bytes);
 }
 
 TEST(Refinement, OfACutThatIsDrawnIsNothing) {

@@ -14,6 +14,7 @@
 #include "tests/engine/stream/FaultWorld.h"
 #include "tests/engine/stream/PatchGround.h"
 #include "tests/engine/stream/PatchworkScene.h"
+#include "tests/engine/stream/SeenScene.h"
 
 namespace teren {
 namespace {
@@ -29,8 +30,22 @@ float rough(std::int64_t column, std::int64_t row) {
 
 /// Four squares of 64 samples divided at random into nodes of levels 0 to 3, to the east, behind a gap, one
 /// node more, and to the south even ground of level 1, whose outermost ring is not drawn.
-Patchwork mixed(std::uint64_t seed, std::int64_t westernmost = -64) {
+/// Vertices move wherever their place's number says, not with their nodes: a surface without cracks all the
+/// same.
+Patchwork moving() {
   Patchwork patchwork(kIntervals, kSpacing, rough);
+  const std::vector<double> errors{2.0, 3.0, 5.0, 8.0, 13.0};
+  patchwork.letMove([](std::int64_t column, std::int64_t row) { return 2.0F * rough(row, column); },
+                    [](std::int64_t column, std::int64_t row) {
+                      const int level = static_cast<int>(std::fabs(rough(row, row + column))) % 5;
+                      return level < 4 ? level : SurfaceVertex::kFixed;
+                    },
+                    Morph(0.06, errors));
+  return patchwork;
+}
+
+Patchwork mixed(std::uint64_t seed, std::int64_t westernmost = -64,
+                Patchwork patchwork = {kIntervals, kSpacing, rough}) {
   Dice dice(seed);
   for (const std::int64_t x : {westernmost, westernmost + 64}) {
     for (const std::int64_t y : {-64, 0}) patchwork.addDivided(PatchworkNode{x, y, 3}, dice);
@@ -247,6 +262,110 @@ TEST(SceneQuery, SaysTheErrorOfTheMeshThatAnswers) {
     ASSERT_LE(answer.height, static_cast<double>((*mesh)->maxHeight));
     ASSERT_GE(answer.height, static_cast<double>((*mesh)->minHeight));
   }
+}
+
+// ---- As an eye sees it
+
+test::EyePoint randomEye(Dice& dice) {
+  return {dice.between(-200, 300), dice.between(-300, 200), dice.between(-50, 150)};
+}
+DetailEye eyeAt(const test::EyePoint& eye) {
+  return {*Position::fromMetres(eye.east, eye.north, kSpacing * kIntervals), eye.height};
+}
+
+TEST(SceneQuery, SeesTheTrianglesThatAreDrawnForAnEye) {
+  std::size_t there = 0, moved = 0;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const SceneQuery lying(mixed(seed, -64, moving()).scene(), kIntervals);
+    Dice dice(seed);
+    for (int trial = 0; trial < 4; ++trial) {
+      const test::EyePoint eye = randomEye(dice);
+      const SceneQuery drawn(test::sceneSeenFrom(*lying.scene(), eye), kIntervals);
+      const SceneQuery seen = lying.seenFrom(eyeAt(eye));
+      std::vector<Position> places;
+      for (int k = 0; k < 500; ++k) {
+        const double x = dice.whole(-62, 63), y = dice.whole(-126, 63);
+        places.push_back(placeOf(dice.between(-70, 150), dice.between(-130, 70)));
+        places.push_back(placeOf(x, y));
+        places.push_back(placeOf(x + 0.625, y + 0.625));
+      }
+      const std::vector<DrawnPoint> expected = ask(drawn, places), answers = ask(seen, places),
+                                    own = ask(lying, places);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        ASSERT_EQ(answers[k].there, expected[k].there);
+        if (!answers[k].there) continue;
+        ++there;
+        moved += answers[k].height != own[k].height ? 1 : 0;
+        ASSERT_EQ(answers[k].height, expected[k].height) << "bit for bit";
+        ASSERT_EQ(answers[k].normal, expected[k].normal);
+        ASSERT_EQ(answers[k].error, std::fabs(answers[k].height - own[k].height));
+      }
+    }
+  }
+  EXPECT_GT(there, 9000U);
+  EXPECT_GT(moved, there / 2);
+}
+
+TEST(SceneQuery, SeesForAnyEyeAtTheWorldsEndAsInItsMiddle) {
+  const std::int64_t far = kMaxPatch - 16;
+  Patchwork here = moving();
+  Dice dice(3);
+  here.addDivided(PatchworkNode{0, 0, 3}, dice);
+  const auto near = here.scene();
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (const auto& mesh : near->meshes()) {
+    auto away = std::make_shared<Mesh>(*mesh);
+    away->originColumn += far * kIntervals;
+    meshes.push_back(std::move(away));
+  }
+  const auto there = std::make_shared<const Scene>(1, kSpacing, std::move(meshes), near->morph());
+  const SceneQuery middle(near, kIntervals), end(there, kIntervals);
+  for (int k = 0; k < 200; ++k) {
+    DetailEye eye = eyeAt(randomEye(dice)), farEye = eye;
+    farEye.position.i += far;
+    if (!farEye.position.valid()) continue;
+    Position place{dice.whole(0, 7), dice.whole(0, 7), dice.between(0, 1), dice.between(0, 1)};
+    const DrawnPoint expected = ask(middle.seenFrom(eye), {place})[0];
+    place.i += far;
+    const DrawnPoint answer = ask(end.seenFrom(farEye), {place})[0];
+    ASSERT_TRUE(expected.there && answer.there);
+    ASSERT_EQ(answer.height, expected.height);
+  }
+}
+
+TEST(SceneQuery, MovesNothingForAnEyeThatIsNowhere) {
+  const SceneQuery lying(mixed(4, -64, moving()).scene(), kIntervals);
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
+  const std::vector<Position> places{placeOf(3.3, 4.4), placeOf(-20.1, 33.0)};
+  const std::vector<DrawnPoint> own = ask(lying, places);
+  ASSERT_NE(ask(lying.seenFrom({{}, 500.0}), places)[0].height, own[0].height);
+  for (const DetailEye& eye : {DetailEye{{0, 0, nan, 0.0}, 1.0}, DetailEye{{0, 0, 1.0, 0.0}, 1.0},
+                               DetailEye{{}, nan}, DetailEye{{}, infinity}, DetailEye{{}, -1e300}}) {
+    const std::vector<DrawnPoint> answers = ask(lying.seenFrom(eye), places);
+    for (std::size_t k = 0; k < places.size(); ++k) ASSERT_EQ(answers[k].height, own[k].height);
+  }
+  EXPECT_EQ(ask(lying.seenFrom({{}, 500.0}, Morph()), places)[0].height, own[0].height);
+}
+
+TEST(SceneQuery, WithoutItsSceneKnowsAllAndAnswersNothing) {
+  const auto scene = mixed(1).scene();
+  std::optional<SceneQuery> query(std::in_place, std::make_shared<const Scene>(*scene), kIntervals);
+  EXPECT_EQ(query->newMeshes(), scene->meshes().size());
+  const std::weak_ptr<const Scene> watched = query->scene();
+  const SceneQuery left = query->withoutScene();
+  query.reset();
+  EXPECT_TRUE(watched.expired()) << "it keeps the snapshot";
+  EXPECT_TRUE(left.scene()->meshes().empty());
+  EXPECT_FALSE(ask(left, {placeOf(3.3, 4.4)})[0].there);
+  RayHit hit;
+  const Ray down{placeOf(3.3, 4.4), 100.0};
+  left.firstHits({&down, 1}, {&hit, 1});
+  EXPECT_EQ(hit.end, RayEnd::nothing);
+  const SceneQuery again(scene, kIntervals, {}, &left);
+  EXPECT_EQ(again.newMeshes(), 0U);
+  EXPECT_EQ(ask(again, {placeOf(3.3, 4.4)})[0].height,
+            ask(SceneQuery(scene, kIntervals), {placeOf(3.3, 4.4)})[0].height);
 }
 
 /// Stands at the world's zero.

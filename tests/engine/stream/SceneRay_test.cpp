@@ -10,6 +10,7 @@
 
 #include "tests/engine/stream/PatchGround.h"
 #include "tests/engine/stream/PatchworkScene.h"
+#include "tests/engine/stream/SeenScene.h"
 
 namespace teren {
 namespace {
@@ -244,6 +245,63 @@ TEST(SceneRay, MeetsTheFirstOfAllTrianglesOrNone) {
   EXPECT_GT(hits, 130);
   EXPECT_GT(misses, 200);
   EXPECT_GT(grazes, 50);
+}
+
+/// Mixed levels whose vertices move between the rough ground and what is three times as high.
+std::shared_ptr<const Scene> moving(std::uint64_t seed) {
+  Patchwork patchwork(kIntervals, 1.0, rough);
+  patchwork.letMove([](std::int64_t column, std::int64_t row) { return 3.0F * rough(row, column); },
+                    [](std::int64_t column, std::int64_t row) {
+                      return rough(row, row + column) < 5.0F ? 1 : SurfaceVertex::kFixed;
+                    },
+                    Morph(0.05, std::vector<double>{1.0, 2.0, 7.0}));
+  Dice dice(seed);
+  for (const std::int64_t x : {-64, 0}) {
+    for (const std::int64_t y : {-64, 0}) patchwork.addDivided(PatchworkNode{x, y, 3}, dice);
+  }
+  return patchwork.scene();
+}
+
+TEST(SceneRay, MeetsTheFirstOfAllTrianglesThatAnEyeSees) {
+  int hits = 0, misses = 0, other = 0, beyond = 0;
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    const SceneQuery lying(moving(seed), kIntervals);
+    Dice dice(seed + 200);
+    for (int look = 0; look < 8; ++look) {
+      const test::EyePoint eye{dice.between(-120, 120), dice.between(-120, 120), dice.between(0, 60)};
+      const SceneQuery seen =
+          lying.seenFrom({*Position::fromMetres(eye.east, eye.north, kIntervals), eye.height});
+      const std::vector<SampleTriangle> triangles = trianglesOf(*test::sceneSeenFrom(*lying.scene(), eye));
+      for (int trial = 0; trial < 60; ++trial) {
+        const Point from{dice.between(-90, 90), dice.between(-90, 90), dice.between(-20, 40)};
+        const Point direction{dice.between(-1, 1), dice.between(-1, 1),
+                              (trial % 2 == 0 ? 0.02L : 1.0L) * dice.between(-1, 1)};
+        const Ray asked = ray(from, direction, dice.between(0, 200));
+        const RayHit hit = ask(seen, asked);
+        const std::vector<Candidate> met = candidates(triangles, from, direction);
+        const bool expected = !met.empty() && met.front().time <= static_cast<long double>(asked.length);
+        ASSERT_EQ(hit.end, expected ? RayEnd::ground : RayEnd::nothing)
+            << seed << ", " << look << ", " << trial;
+        (expected ? hits : misses) += 1;
+        const RayHit unmoved = ask(lying, asked);
+        other += unmoved.end != hit.end || std::fabs(unmoved.way - hit.way) > 0.01 ? 1 : 0;
+        if (!expected) continue;
+        ASSERT_NEAR(hit.way, static_cast<double>(met.front().time), 1e-6);
+        // The bound is that of the height there.
+        const Result<Position> place =
+            asked.from.movedBy(hit.way * asked.direction[0], hit.way * asked.direction[1], kIntervals);
+        DrawnPoint point;
+        seen.points({&*place, 1}, {&point, 1});
+        ASSERT_TRUE(point.there);
+        ASSERT_NEAR(hit.error, point.error, 1e-6);
+        beyond += std::fabs(asked.height + hit.way * asked.direction[2]) > 8.5 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(hits, 150);
+  EXPECT_GT(misses, 300);
+  EXPECT_GT(other, 150) << "what the same ray meets of the vertices as they lie";
+  EXPECT_GT(beyond, 40) << "hits beyond all heights of the vertices as they lie";
 }
 
 TEST(SceneRay, ComesDownWhereTheHeightIs) {

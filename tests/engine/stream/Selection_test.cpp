@@ -249,6 +249,53 @@ TEST(Selection, IsTheSameInWhateverSlices) {
   }
 }
 
+TEST(Selection, TakesARowOfRootsOrAFewNodesBetweenTwoLooksAtTheClock) {
+  Selection::Ground ground = roughGround();
+  ground.coarsest = 3;
+  Selection selection(ground);
+  const Viewer viewer = viewerAt(0.0, 0.0, 100.0, 64.0, 20'000.0);
+  selection.begin({&viewer, 1}, 1.0);
+  std::size_t slices = 1;
+  while (!selection.step(Slice::until(Slice::Clock::time_point::min()))) ++slices;
+  const std::size_t nodes = selection.chosen().size();
+  EXPECT_GT(nodes, 4000U);
+  // 89 rows; split and weighed 32 at a time; in order in five passes of 256.
+  EXPECT_GE(slices, 89U + 2U * nodes / 32U + 5U * nodes / 256U);
+}
+
+TEST(Selection, SplitsANodeEarlierThatIsKnownToBeRougherThanItsLevel) {
+  Selection selection(roughGround());
+  const std::vector<Viewer> viewers{viewerAt(0.0, 0.0, 100.0)};
+  selection.choose(viewers, 1.0);
+  const std::vector<NodeKey> leaves = leavesOf(selection);
+  const auto coarse =
+      std::find_if(leaves.begin(), leaves.end(), [](const NodeKey& leaf) { return leaf.level == 4; });
+  ASSERT_NE(coarse, leaves.end());
+  const NodeKey rough = *coarse;
+  const double seen = selection.seen(rough), error = selection.errors()[4];
+  ASSERT_LE(seen, 1.0);
+  selection.setError(rough, {error / seen * 1.001, 0.0});
+  selection.choose(viewers, 1.0);
+  EXPECT_FALSE(selection.chosen()[selection.chosen().find(rough)].isLeaf());
+  selection.setError(rough, {error, 1e6});
+  selection.choose(viewers, 1.0);
+  EXPECT_FALSE(selection.chosen()[selection.chosen().find(rough)].isLeaf()) << "its seams are beside the eye";
+  selection.forgetError(rough);
+  selection.choose(viewers, 1.0);
+  EXPECT_EQ(namesOf(leavesOf(selection)), namesOf(leaves));
+}
+
+TEST(Selection, SeesGroundAboveAllThatWasKnownAsNear) {
+  Selection selection(roughGround());
+  const std::vector<Viewer> over{viewerAt(0.0, 0.0, 1000.0)};
+  selection.choose(over, 1.0);
+  const std::size_t before = selection.chosen().leaves();
+  selection.setHeights(-100.0, 950.0);
+  selection.choose(over, 1.0);
+  EXPECT_GT(selection.chosen().leaves(), before);
+  for (const NodeKey& leaf : leavesOf(selection)) ASSERT_TRUE(leaf.level == 0 || selection.seen(leaf) <= 1.0);
+}
+
 TEST(Selection, KeepsWhatWasKeptUntilTheNextIs) {
   Selection selection(roughGround());
   selection.choose(std::vector{viewerAt(0.0, 0.0, 100.0)}, 1.0);

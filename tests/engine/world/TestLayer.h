@@ -28,7 +28,7 @@ inline Layer makeTestLayer(const LayerShape& shape, std::shared_ptr<const Genera
   for (const auto& filter : filters) range = filter->range(range);
   std::vector<std::string> ids = {"generator"};
   for (std::size_t k = 0; k < filters.size(); ++k) ids.push_back("filter-" + std::to_string(k));
-  LayerPlugins plugins{std::move(generator), std::move(filters), std::move(ids)};
+  LayerPlugins plugins{std::move(generator), std::move(filters), std::move(ids), {}};
   if (plugins.filters.empty()) plugins.field = asContinuous(*plugins.generator);
   return Layer("test", shape.seed, 64.0, shape.worldBits, shape.pitchShift, shape.layerBits, shape.kernel,
                shape.preserveVariance, std::move(plugins), range, std::move(messages));

@@ -21,7 +21,7 @@ CleanUpCount cleanAll(SandSurface& surface, double tolerance, int passes = 4) {
     for (VertexId v = 0; v < surface.mesh().vertexSlots(); ++v) {
       if (surface.mesh().isVertex(v)) cleanUp.add(v);
     }
-    cleanUp.run(surface, slides, kKeepNone);
+    cleanUp.run(surface, slides, kKeepNone, cleanUp.waiting());
   }
   return cleanUp.count();
 }

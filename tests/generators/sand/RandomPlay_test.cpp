@@ -1,6 +1,5 @@
 // Stamps, slides and clean-up in random order, with random tools at random places: nothing may break, ever.
-// TEREN_FULL=1 plays a hundred times as long.
-#include <cstdlib>
+// TEREN_FULL=1 plays a hundred times as long, a sanitizer a tenth.
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,12 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/generators/sand/RandomGame.h"
+#include "tests/support/TrialSize.h"
 
 namespace teren {
 namespace {
 
 int operations() {
-  return std::getenv("TEREN_FULL") != nullptr ? 10'000'000 : 100'000;
+  return test::trials(100'000, 10'000'000);
 }
 
 TEST(RandomPlay, NeverBreaksTheMeshNorLosesVolume) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -129,6 +130,35 @@ TEST(GridApproximation, TheGridComesBackWithinThePromiseAndExactlyAtVertices) {
   HeightMap finer(129, 129);  // between the samples, too
   sampleGrid(*mesh, finer.view());
   EXPECT_EQ(finer(128, 64), back(64, 32));
+}
+
+TEST(GridApproximation, TakesAllOfTheBorderWhereNeighboursAreToMeetIt) {
+  for (const auto& [columns, rows] : {std::pair{65, 33}, {2, 9}, {9, 2}, {2, 2}}) {
+    const HeightMap map = hills(columns, rows, 9);
+    for (const double error : {10.0, 0.05}) {
+      const Result<Triangulation> mesh =
+          approximateGrid(map.view(), frameOf(columns, rows, 16), error, GridBorder::all);
+      ASSERT_TRUE(mesh.ok());
+      ASSERT_TRUE(mesh->validate().ok());
+      EXPECT_LE(worstErrorAtSamples(*mesh, map.view()), error);
+      for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < columns; ++x) {
+          const bool onBorder = x == 0 || y == 0 || x == columns - 1 || y == rows - 1;
+          const VertexId vertex = mesh->vertexAt({16 * x, 16 * y});
+          if (onBorder) {
+            ASSERT_NE(vertex, kNoVertex) << x << ", " << y;
+          }
+          if (vertex != kNoVertex) {
+            EXPECT_EQ(static_cast<float>(mesh->height(vertex)), map(x, y));
+          }
+        }
+      }
+      const auto border = static_cast<std::size_t>(2 * (columns + rows) - 4);
+      if (error > 1.0) {
+        EXPECT_EQ(mesh->vertexCount(), border) << "and no more than is needed within";
+      }
+    }
+  }
 }
 
 TEST(GridApproximation, RefusesWhatItCannotApproximate) {

@@ -57,6 +57,7 @@ inline teren::PluginDescription flatDescription(const char* id) {
           "one height everywhere",
           &Flat::parameters,
           &teren::makePlugin<Flat, teren::Generator>,
+          nullptr,
           nullptr};
 }
 

@@ -1,0 +1,224 @@
+#include "generators/sand/SandIsland.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "generators/numbers/Turn.h"
+
+namespace teren {
+namespace {
+
+constexpr int kShift = std::countr_zero(static_cast<std::uint32_t>(SandIsland::kStepsASpacing));
+/// A unit of work: some tens of microseconds.
+constexpr std::uint64_t kUnitFaces = 8;
+constexpr std::size_t kUnitVertices = 4;
+constexpr int kTeeth = 3;
+constexpr double kLooks = 44.5;        // 8 pi^1.5
+constexpr double kThinnestWall = 8.5;  // [steps], a little more than Stamper asks for
+/// What a tool of no depth moves, its berm included, and how far sand runs out from a berm's top.
+constexpr double kReachOfTool = 2.0, kReachOfDepth = 3.0, kReachOfSpacing = 3.0;
+
+Error wrong(const char* field, double value, const std::string& expected) {
+  return {std::string(field) + " is " + metresText(value) + ", expected " + expected};
+}
+
+Result<ToolShape> shapeOf(const std::string& tool, double size, double depth) {
+  if (tool == "square") return ToolShape::square(2.0 * size, depth);
+  if (tool == "rake") return ToolShape::rake(2.0 * size, depth, kTeeth);
+  if (tool == "wedge") return ToolShape::wedge(2.0 * size, depth);
+  if (tool == "ball") return ToolShape::ball(size, depth);
+  return ToolShape::disc(size, depth);
+}
+
+LatticeFrame frameOf(const DeformRegion& region) {
+  return {.x = 0.0,
+          .y = 0.0,
+          .step = region.spacing / SandIsland::kStepsASpacing,
+          .width = (region.sampleColumns() - 1) << kShift,
+          .height = (region.sampleRows() - 1) << kShift};
+}
+
+SandSettings settingsFor(double spacing) {
+  SandSettings settings;
+  settings.longestEdge = spacing;
+  settings.flatness = SandIsland::kTolerance * spacing;
+  settings.stamp.fit = spacing / 256.0;
+  settings.stamp.loosening = spacing / 4.0;
+  return settings;
+}
+
+SandSurface closedSurface(const DeformRegion& region, ConstHeightView ground) {
+  SandSurface surface(frameOf(region), ground(0, 0), 0.0);
+  surface.fence(OpenCells(region.sampleColumns() - 1, region.sampleRows() - 1, kShift));
+  return surface;
+}
+
+/// [m^3]
+double volumeOf(SixfoldVolume volume, double step) {
+  return asDouble(volume) * kMetresPerTick * step * step / 6.0;
+}
+
+}  // namespace
+
+Result<SandPress> SandIsland::read(const Stamp& stamp, double spacing) {
+  const double largest = kMostSpacings * spacing;
+  if (!(stamp.size > 0.0 && stamp.size <= largest)) {
+    return wrong("size", stamp.size, "a radius above 0 and up to " + metresText(largest));
+  }
+  if (!(std::fabs(stamp.depth) <= stamp.size) || stamp.depth == 0.0) {
+    return wrong("depth", stamp.depth, "at most the size, down or, to heap up, negative, and not 0");
+  }
+  const double step = spacing / kStepsASpacing;
+  SandPress press;
+  double wall = stamp.size / 20.0, tool = stamp.size;
+  if (stamp.depth > 0.0) {
+    Result<ToolShape> shape = shapeOf(stamp.values.choice("tool"), stamp.size, stamp.depth);
+    if (!shape) return shape.error();
+    for (const ToolPart& part : shape->parts()) wall = std::min(wall, part.wall);
+    tool = shape->reach();
+    press.tool = *std::move(shape);
+  }
+  if (!(wall >= kThinnestWall * step)) {
+    return wrong("size", stamp.size,
+                 "at least " + metresText(stamp.size * kThinnestWall * step / wall) +
+                     " of this tool on ground of samples " + metresText(spacing) + " apart");
+  }
+  press.radius = stamp.size;
+  press.height = -stamp.depth;
+  press.dryAngle = stamp.values.real("repose");
+  press.moisture = stamp.values.real("moisture");
+  if (stamp.values.boolean("push")) {
+    const SineCosine way = sineCosineOfTurn(stamp.values.real("direction") / 360.0);
+    press.pushX = way.cosine;
+    press.pushY = way.sine;
+  }
+  press.reach = kReachOfTool * tool + kReachOfDepth * std::fabs(stamp.depth) + kReachOfSpacing * spacing;
+  return press;
+}
+
+Result<std::unique_ptr<LiveSurface>> SandIsland::begin(const DeformRegion& region, ConstHeightView ground) {
+  constexpr int kMostCells = kLatticeSide >> kShift;
+  constexpr std::int64_t kMostInAll = std::int64_t{1} << 30;
+  const int columns = region.sampleColumns() - 1, rows = region.sampleRows() - 1;
+  if (columns > kMostCells || rows > kMostCells || std::int64_t{columns} * rows > kMostInAll) {
+    return Error{"sand cannot hold a region of " + std::to_string(columns) + " x " + std::to_string(rows) +
+                 " squares: at most " + std::to_string(kMostCells) + " along a side and " +
+                 std::to_string(kMostInAll) + " in all"};
+  }
+  const double highest = metresFromTicks(kHighestTick);
+  for (int y = 0; y < ground.rows(); ++y) {
+    for (int x = 0; x < ground.columns(); ++x) {
+      if (std::fabs(ground(x, y)) <= highest) continue;
+      return Error{"sand cannot hold ground at " + metresText(ground(x, y)) + ", only from " +
+                   metresText(-highest) + " to " + metresText(highest)};
+    }
+  }
+  return std::unique_ptr<LiveSurface>(new SandIsland(region, ground));
+}
+
+SandIsland::SandIsland(const DeformRegion& region, ConstHeightView ground)
+    : ground_(ground.columns(), ground.rows()),
+      grid_(region, ground),
+      sandbox_(closedSurface(region, ground), settingsFor(region.spacing)) {
+  for (int y = 0; y < ground.rows(); ++y) std::copy_n(ground.row(y), ground.columns(), ground_.view().row(y));
+}
+
+Result<void> SandIsland::apply(const Stamp& stamp) {
+  const Result<SandPress> press = read(stamp, grid_.region().spacing);
+  if (!press) return press.error();
+  if (Result<void> place = checkPlace(grid_.region(), stamp, press->reach); !place) return place;
+  if (Result<void> room = SandSurface::hasRoom(surface().mesh().vertexCount()); !room) return room;
+  while (begun_) work();
+  sandbox_.open(ground_.view(), stamp.east, stamp.north, press->reach);
+  const double across = press->reach / grid_.region().spacing;
+  const std::uint64_t looks = looksLeft() + static_cast<std::uint64_t>(kLooks * across * across * across);
+  slidesUntil_ = sandbox_.slides().count().steps + std::min(looks, kMostLooks);
+  sandbox_.setReposeOfWhatMoves(press->dryAngle, press->moisture);
+  if (press->tool) {
+    const LatticePoint middle = *surface().mesh().frame().snap(stamp.east, stamp.north);
+    const double height = metresFromTicks(surface().heightAt(middle, kNoTriangle));
+    const auto report =
+        sandbox_.stamp(*press->tool, {stamp.east, stamp.north, height, press->pushX, press->pushY});
+    if (!report) return report.error();
+    return {};
+  }
+  const SixfoldVolume before = surface().entered();
+  sandbox_.pour(stamp.east, stamp.north, press->radius, press->height);
+  poured_ += volumeOf(surface().entered() - before, surface().step());
+  return {};
+}
+
+std::uint64_t SandIsland::looksLeft() const noexcept {
+  const std::uint64_t done = sandbox_.slides().count().steps;
+  return std::max(slidesUntil_, done) - done;
+}
+
+bool SandIsland::step(const Slice& slice, std::uint64_t upTo) {
+  while (!atRest() && steps_ < upTo) {
+    work();
+    if (slice.over()) break;
+  }
+  return atRest() || steps_ >= upTo;
+}
+
+/// A unit of the current step.
+void SandIsland::work() {
+  begun_ = true;
+  if (sandbox_.slides().count().steps >= slidesUntil_) sandbox_.stopSliding();
+  if (faces_ < kStepFaces && !sandbox_.slides().atRest()) {
+    sandbox_.slide(kUnitFaces);
+    faces_ += kUnitFaces;
+    return;
+  }
+  faces_ = kStepFaces;  // what the clean-up unsettles is the next step's
+  sandbox_.clean(kUnitVertices);
+  vertices_ += kUnitVertices;
+  if (vertices_ < kStepVertices && sandbox_.hasToClean()) return;
+  faces_ = 0;
+  vertices_ = 0;
+  begun_ = false;
+  ++steps_;
+}
+
+/// Takes the TIN's heights at the samples within a triangle.
+void SandIsland::sample(TriangleId t) {
+  const Triangulation& mesh = surface().mesh();
+  const std::array<VertexId, 3>& corners = mesh.corners(t);
+  const LatticePoint a = mesh.point(corners[0]), b = mesh.point(corners[1]), c = mesh.point(corners[2]);
+  const auto middle = [](std::int32_t one, std::int32_t two, std::int32_t three) {
+    return static_cast<int>((std::int64_t{one} + two + three) / 3 >> kShift);
+  };
+  // No triangle lies on both sides of the fence.
+  if (!surface().cells().isOpen(middle(a.x, b.x, c.x), middle(a.y, b.y, c.y))) return;
+  const auto [west, east] = std::minmax({a.x, b.x, c.x});
+  const auto [south, north] = std::minmax({a.y, b.y, c.y});
+  constexpr std::int32_t kUp = kStepsASpacing - 1;
+  for (int y = (south + kUp) >> kShift; y <= north >> kShift; ++y) {
+    for (int x = (west + kUp) >> kShift; x <= east >> kShift; ++x) {
+      const LatticePoint p{x << kShift, y << kShift};
+      if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0 || orientation(c, a, p) < 0) continue;
+      if (surface().cells().isFixed(p)) continue;
+      const double ground = ground_(x, y), height = mesh.heightAt(p, t);
+      const double now = std::fabs(height - ground) <= tolerance() ? ground : height;
+      if (grid_(x, y) != now) grid_.set(x, y, now);
+    }
+  }
+}
+
+std::shared_ptr<const DeformedGround> SandIsland::snapshot() {
+  for (const TriangleId t : sandbox_.changedTriangles().ids()) {
+    if (surface().mesh().isTriangle(t)) sample(t);
+  }
+  sandbox_.forgetChanges();
+  return grid_.snapshot();
+}
+
+std::size_t SandIsland::bytes() const noexcept {
+  return sizeof(*this) - sizeof(grid_) - sizeof(sandbox_) + grid_.bytes() + sandbox_.bytes() +
+         ground_.samples().size() * sizeof(float);
+}
+
+}  // namespace teren

@@ -1,0 +1,410 @@
+#include "generators/sand/SandIsland.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "teren/Edit.h"
+#include "teren/Hash.h"
+
+#include "generators/numbers/RandomNumber.h"
+#include "tests/support/SlicedWork.h"
+
+namespace teren {
+namespace {
+
+constexpr DeformRegion kRegion{.columns = 4, .rows = 3, .intervals = 32, .spacing = 2.0};
+constexpr std::uint64_t kEnd = std::numeric_limits<std::uint64_t>::max();
+constexpr std::string_view kTools[] = {"round", "square", "rake", "wedge", "ball"};
+
+Stamp stamp(double east, double north, double size, double depth,
+            const std::vector<Values::Entry>& set = {}) {
+  static constexpr Parameter table[] = {Parameter::choice("tool", "round", kTools, ""),
+                                        Parameter::boolean("push", false, ""),
+                                        Parameter::real("direction", 0.0, 0.0, 360.0, "", ""),
+                                        Parameter::real("repose", kDryRepose, 20.0, 45.0, "", ""),
+                                        Parameter::real("moisture", 0.0, 0.0, 1.0, "", "")};
+  return {.east = east,
+          .north = north,
+          .size = size,
+          .depth = depth,
+          .values = Values::check(table, set, "sand").value()};
+}
+
+template <class Height>
+HeightMap groundOf(const DeformRegion& region, Height height) {
+  HeightMap map(region.sampleColumns(), region.sampleRows());
+  for (int y = 0; y < map.rows(); ++y) {
+    for (int x = 0; x < map.columns(); ++x) map(x, y) = static_cast<float>(height(x, y));
+  }
+  return map;
+}
+
+HeightMap flat(const DeformRegion& region = kRegion) {
+  return groundOf(region, [](int, int) { return 0.0; });
+}
+
+/// 50 degrees down to the east: steeper than sand lies.
+HeightMap steep() {
+  return groundOf(kRegion, [](int x, int) { return 200.0 - 1.2 * 2.0 * x; });
+}
+
+HeightMap noisy(double most) {
+  RandomSequence random(77);
+  return groundOf(kRegion, [&](int, int) { return most * uniformAroundZero(random.next()); });
+}
+
+/// As waves that repeat every 32 squares, so that the same ground lies half a patch farther.
+double waves(int x, int y) {
+  const auto tent = [](int n) { return std::abs((n & 31) - 16) / 16.0; };
+  return 12.0 * tent(x + 3) + 7.0 * tent(y + 2 * x) + 0.5 * ((x * 7 + y * 13) & 3);
+}
+
+class Island {
+ public:
+  explicit Island(const HeightMap& ground, const DeformRegion& region = kRegion)
+      : region_(region), live_(SandIsland::begin(region, ground.view()).value()) {}
+
+  SandIsland& operator*() { return static_cast<SandIsland&>(*live_); }
+  SandIsland* operator->() { return static_cast<SandIsland*>(live_.get()); }
+  const SandSurface& surface() { return (*this)->surface(); }
+  SixfoldVolume account() { return surface().volume() + surface().owed() - surface().entered(); }
+
+  void press(const Stamp& stamp) {
+    const Result<void> applied = live_->apply(stamp);
+    ASSERT_TRUE(applied.ok()) << applied.error().message;
+  }
+  void rest() { ASSERT_TRUE(live_->step(Slice::unlimited(), kEnd)); }
+
+  HeightMap heights() {
+    HeightMap map(region_.sampleColumns(), region_.sampleRows());
+    live_->snapshot()->samples({0, 0, map.columns(), map.rows()}, map.view());
+    return map;
+  }
+
+ private:
+  DeformRegion region_;
+  std::unique_ptr<LiveSurface> live_;
+};
+
+/// Every promise of the surface, and that all that is fixed lies on the grid's samples, bare.
+void expectSound(Island& island, const HeightMap& ground) {
+  const SandSurface& surface = island.surface();
+  const Result<void> sound = surface.validate();
+  EXPECT_TRUE(sound.ok()) << sound.error().message;
+  for (VertexId v = 4; v < surface.mesh().vertexSlots(); ++v) {
+    if (!surface.mesh().isVertex(v) || !surface.isFixed(v)) continue;
+    const LatticePoint p = surface.mesh().point(v);
+    ASSERT_EQ(p.x % SandIsland::kStepsASpacing, 0);
+    ASSERT_EQ(p.y % SandIsland::kStepsASpacing, 0);
+    ASSERT_EQ(surface.height(v), ticksFromMetres(ground(p.x >> 10, p.y >> 10)));
+    ASSERT_EQ(surface.loose(v), 0);
+  }
+}
+
+/// All samples as far from the place as the reach, or farther, are the ground's.
+void expectUntouchedBeyond(Island& island, const HeightMap& ground, const Stamp& stamp) {
+  const double reach = SandIsland::read(stamp, kRegion.spacing).value().reach;
+  const HeightMap after = island.heights();
+  int changed = 0;
+  for (int y = 0; y < ground.rows(); ++y) {
+    for (int x = 0; x < ground.columns(); ++x) {
+      const double distance = std::hypot(2.0 * x - stamp.east, 2.0 * y - stamp.north);
+      if (after(x, y) != ground(x, y)) ++changed;
+      if (distance < reach) continue;
+      ASSERT_EQ(std::signbit(after(x, y)), std::signbit(ground(x, y)));
+      ASSERT_EQ(after(x, y), ground(x, y)) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(changed, 0);
+}
+
+TEST(SandIsland, MovesNothingBeyondItsReachOnAnyGround) {
+  HeightMap tiny = noisy(1e-30);
+  tiny(3, 3) = -0.0F;
+  for (const HeightMap& ground : {flat(), steep(), noisy(1.0), noisy(50.0), tiny}) {
+    for (const std::string_view tool : kTools) {
+      for (const double depth : {4.0, -4.0}) {
+        Island island(ground);
+        const Stamp dug = stamp(127.0, 96.5, 9.0, depth,
+                                {{"tool", std::string(tool)}, {"push", true}, {"direction", 200.0}});
+        island.press(dug);
+        island.rest();
+        expectUntouchedBeyond(island, ground, dug);
+        expectSound(island, ground);
+        if (depth < 0.0) break;
+      }
+    }
+  }
+}
+
+TEST(SandIsland, GivesGroundThatItOnlyTookInBackBitForBit) {
+  // Ridges beside the tool, and so little noise that the clean-up takes vertices of it away.
+  const HeightMap ground = groundOf(
+      kRegion, [](int x, int y) { return 1e-7 * ((x * 37 + y * 11) % 17) + (y % 9 == 4 ? 3.25 : 0.125); });
+  Island island(ground);
+  const Stamp small = stamp(101.0, 107.0, 2.0, 0.1);
+  island.press(small);
+  const std::size_t entered = island.surface().mesh().vertexCount();
+  island.rest();
+  EXPECT_LT(island.surface().mesh().vertexCount(), entered);
+  const HeightMap after = island.heights();
+  int same = 0;
+  for (int y = 0; y < ground.rows(); ++y) {
+    for (int x = 0; x < ground.columns(); ++x) {
+      const double distance = std::hypot(2.0 * x - small.east, 2.0 * y - small.north);
+      if (distance < 1.6 * small.size + 1.0) continue;  // what the tool and its berm touch
+      ASSERT_EQ(after(x, y), ground(x, y)) << x << ", " << y;
+      same += distance < SandIsland::read(small, 2.0).value().reach;
+    }
+  }
+  EXPECT_GT(same, 30);  // within reach
+}
+
+TEST(SandIsland, KeepsAllVolumeExactlyButWhatIsPoured) {
+  for (const HeightMap& ground : {flat(), steep(), noisy(3.0)}) {
+    Island island(ground);
+    const SixfoldVolume before = island.account();
+    RandomSequence random(4);
+    for (int count = 0; count < 24; ++count) {
+      const double depth = count % 5 == 4 ? -2.0 : 1.0 + uniformAroundZero(random.next()) * 0.5;
+      island.press(stamp(128.0 + 30.0 * uniformAroundZero(random.next()),
+                         96.0 + 20.0 * uniformAroundZero(random.next()), 5.0, depth,
+                         {{"tool", std::string(kTools[static_cast<std::size_t>(count) % 5])},
+                          {"push", count % 2 == 0},
+                          {"direction", 15.0 * count}}));
+      EXPECT_TRUE(island.account() == before);
+      ASSERT_TRUE(island->step(Slice::unlimited(), island->steps() + 3) || true);
+      EXPECT_TRUE(island.account() == before);
+    }
+    island.rest();
+    EXPECT_TRUE(island.account() == before);
+    EXPECT_LT(std::fabs(asDouble(island.surface().owed())) / asDouble(island.surface().volumeMoved()), 1e-12);
+    expectSound(island, ground);
+  }
+}
+
+TEST(SandIsland, TellsHowMuchItHasPoured) {
+  Island island(flat());
+  island.press(stamp(128.0, 96.0, 8.0, -4.0));
+  const double paraboloid = 0.5 * 3.14159265358979 * 8.0 * 8.0 * 4.0;
+  EXPECT_NEAR(island->poured(), paraboloid, 0.05 * paraboloid);
+  const double poured = island->poured();
+  island.press(stamp(128.0, 96.0, 8.0, 4.0));
+  EXPECT_EQ(island->poured(), poured);
+}
+
+/// Sum of all samples' changes [m^3], and of those upwards.
+std::pair<double, double> changes(const HeightMap& ground, const HeightMap& after) {
+  double sum = 0.0, raised = 0.0;
+  for (std::size_t i = 0; i < ground.samples().size(); ++i) {
+    const double change = 4.0 * (static_cast<double>(after.samples()[i]) - ground.samples()[i]);
+    sum += change;
+    raised += std::max(change, 0.0);
+  }
+  return {sum, raised};
+}
+
+TEST(SandIsland, LosesOnlyTheSamplingErrorWhenItIsWrittenBack) {
+  const DeformRegion region{.columns = 5, .rows = 5, .intervals = 32, .spacing = 2.0};
+  for (const auto& [size, bound] : {std::pair(4.0, 0.2), std::pair(12.0, 0.05), std::pair(24.0, 0.02)}) {
+    const HeightMap ground = flat(region);
+    Island island(ground, region);
+    island.press(stamp(161.3, 158.2, size, 0.25 * size));
+    island.rest();
+    const auto [sum, raised] = changes(ground, island.heights());
+    EXPECT_GT(raised, 0.3 * 3.14 * size * size * 0.25 * size);
+    EXPECT_LT(std::fabs(sum), bound * raised) << sum / raised;
+    RecordProperty("sampling_error_" + std::to_string(static_cast<int>(size)), std::to_string(sum / raised));
+  }
+}
+
+TEST(SandIsland, SpreadsSandOverPatchBordersAsWithinPatches) {
+  const DeformRegion region{.columns = 6, .rows = 6, .intervals = 32, .spacing = 2.0};
+  constexpr int kShift = 16;  // half a patch
+  const HeightMap ground = groundOf(region, waves);
+  const HeightMap shifted = groundOf(region, [](int x, int y) { return waves(x - kShift, y - kShift); });
+  Island one(ground, region), other(shifted, region);
+  for (const auto& [east, north, depth] :
+       {std::tuple(160.0, 160.5, 6.0), std::tuple(171.25, 158.0, 4.0), std::tuple(165.0, 170.0, -5.0)}) {
+    one.press(stamp(east, north, 10.0, depth));
+    other.press(stamp(east + 2.0 * kShift, north + 2.0 * kShift, 10.0, depth));
+    one.rest();
+    other.rest();
+  }
+  EXPECT_EQ(one->steps(), other->steps());
+  const HeightMap here = one.heights(), there = other.heights();
+  int changed = 0;
+  for (int y = 0; y < ground.rows() - kShift; ++y) {
+    for (int x = 0; x < ground.columns() - kShift; ++x) {
+      ASSERT_EQ(here(x, y), there(x + kShift, y + kShift)) << x << ", " << y;
+      changed += here(x, y) != ground(x, y);
+    }
+  }
+  EXPECT_GT(changed, 300);
+}
+
+TEST(SandIsland, LeavesLooseMaterialNoSteeperThanItLies) {
+  Island island(flat());
+  island.press(stamp(128.0, 96.0, 8.0, -8.0));
+  island.rest();
+  EXPECT_GT(steepestLooseSlope(island.surface()), 0.5);
+  EXPECT_LT(steepestLooseSlope(island.surface()), std::tan((kDryRepose + kReposeTolerance) / 57.295779513));
+  const HeightMap after = island.heights();
+  EXPECT_LT(after(64, 48), 7.0F);
+  EXPECT_GT(after(64, 48), 2.0F);
+}
+
+TEST(SandIsland, KeepsFewVerticesWhereGroundIsFlat) {
+  Island island(flat());
+  island.press(stamp(128.0, 96.0, 10.0, 5.0));
+  const std::size_t before = island.surface().mesh().vertexCount();
+  const SandPress press = SandIsland::read(stamp(0.0, 0.0, 10.0, 5.0), 2.0).value();
+  EXPECT_GT(static_cast<double>(before), 0.7 * press.reach * press.reach);  // 3.14 / 4 at least
+  island.rest();
+  EXPECT_LT(island.surface().mesh().vertexCount(), 3 * before / 4);
+  EXPECT_LE(island->tolerance(), 0.001);
+}
+
+TEST(SandIsland, CleansUpAllThatALargeGentleToolHasTakenIn) {
+  const DeformRegion region{.columns = 6, .rows = 6, .intervals = 32, .spacing = 2.0};
+  Island island(flat(region), region);
+  island.press(stamp(192.0, 192.0, 60.0, 0.25));
+  const std::size_t before = island.surface().mesh().vertexCount();
+  island.rest();
+  // The berm is round, and keeps half of them.
+  EXPECT_LT(island.surface().mesh().vertexCount(), 11 * before / 20);
+}
+
+TEST(SandIsland, HasNeverMoreBeforeItThanItsStepsCanDo) {
+  EXPECT_LE(2 * SandIsland::kMostLooks, kMostEditSteps * SandIsland::kStepFaces);
+  const DeformRegion region{.columns = 12, .rows = 12, .intervals = 32, .spacing = 2.0};
+  Island island(flat(region), region);
+  for (int count = 0; count < 24; ++count) {
+    island.press(stamp(384.0, 384.0, 48.0, -24.0));
+    ASSERT_LE(island->looksLeft(), SandIsland::kMostLooks);
+  }
+  EXPECT_EQ(island->looksLeft(), SandIsland::kMostLooks);
+}
+
+TEST(SandIsland, LetsSandRestAgainstTheFenceOnSteepGround) {
+  const HeightMap ground = steep();
+  Island island(ground);
+  const Stamp heap = stamp(100.0, 96.0, 8.0, -8.0);
+  island.press(heap);
+  island.rest();
+  expectUntouchedBeyond(island, ground, heap);
+  EXPECT_TRUE(island->atRest());
+  // All of it has run down to the fence and lies there.
+  const HeightMap after = island.heights();
+  const double reach = SandIsland::read(heap, 2.0).value().reach;
+  const int fence = static_cast<int>((100.0 + reach) / 2.0) - 4;
+  EXPECT_GT(after(fence, 48), ground(fence, 48) + 0.1F);
+}
+
+TEST(SandIsland, ComesToRestAmongNeedles) {
+  const HeightMap ground = noisy(1000.0);
+  Island island(ground);
+  island.press(stamp(128.0, 96.0, 6.0, 2.0));
+  island.press(stamp(130.0, 92.0, 6.0, -2.0));
+  island.rest();
+  const double across = SandIsland::read(stamp(0.0, 0.0, 6.0, 2.0), 2.0).value().reach / 2.0;
+  EXPECT_LT(static_cast<double>(island->steps()), 2 * 44.5 * across * across * across / 1024.0 + 20.0);
+  expectSound(island, ground);
+}
+
+TEST(SandIsland, BearsThousandsOfStampsOnOneSpot) {
+  constexpr int kStamps = 10'000;
+  const HeightMap ground = noisy(1.0);
+  Island island(ground);
+  const SixfoldVolume before = island.account();
+  for (int count = 0; count < kStamps; ++count) {
+    const double depth = count % 3 == 2 ? -1.0 : 1.0;
+    island.press(stamp(128.5, 95.25, 2.0, depth, {{"tool", std::string(kTools[(count / 7) % 5])}}));
+    if (count % 50 != 0) continue;
+    ASSERT_TRUE(island->step(Slice::unlimited(), island->steps() + 1));
+  }
+  EXPECT_TRUE(island.account() == before);
+  expectSound(island, ground);
+  EXPECT_LT(island.surface().mesh().vertexCount(), 50'000U);
+  const HeightMap after = island.heights();
+  for (const float height : after.samples()) ASSERT_TRUE(std::isfinite(height));
+}
+
+TEST(SandIsland, PutsAStampAfterTheStepThatHasBegun) {
+  const auto after = [](bool within) {
+    Island island(noisy(1.0));
+    island.press(stamp(120.0, 96.0, 10.0, 5.0));
+    if (within) {
+      for (int slice = 0; slice < 5; ++slice) EXPECT_FALSE(island->step(test::shortestSlice(), kEnd));
+      EXPECT_EQ(island->steps(), 0U);
+    } else {
+      EXPECT_TRUE(island->step(Slice::unlimited(), 1));
+    }
+    island.press(stamp(128.0, 96.0, 8.0, 4.0));
+    EXPECT_EQ(island->steps(), 1U);
+    island.rest();
+    return island.heights();
+  };
+  EXPECT_TRUE(test::sameBits(after(true).view(), after(false).view()));
+}
+
+TEST(SandIsland, LetsTheAngleOfReposeHoldForWhatMovesFromThenOn) {
+  const auto top = [](double repose, double moisture) {
+    Island island(flat());
+    island.press(stamp(128.0, 96.0, 8.0, -8.0, {{"repose", repose}, {"moisture", moisture}}));
+    island.rest();
+    return island.heights()(64, 48);
+  };
+  EXPECT_LT(top(20.0, 0.0), top(30.0, 0.0));
+  EXPECT_LT(top(30.0, 0.0), top(30.0, 1.0));
+  // A heap at rest stays when drier sand comes far from it.
+  Island island(flat());
+  island.press(stamp(90.0, 96.0, 6.0, -6.0, {{"repose", 45.0}}));
+  island.rest();
+  const float before = island.heights()(45, 48);
+  island.press(stamp(190.0, 96.0, 4.0, -4.0, {{"repose", 20.0}}));
+  island.rest();
+  EXPECT_EQ(island.heights()(45, 48), before);
+}
+
+TEST(SandIsland, RefusesWithASentenceWhatItCannotDo) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto sentence = [](double size, double depth, const char* tool = "round") {
+    const Result<SandPress> press =
+        SandIsland::read(stamp(0.0, 0.0, size, depth, {{"tool", std::string(tool)}}), 2.0);
+    return press ? std::string() : press.error().message;
+  };
+  EXPECT_EQ(sentence(0.0, 1.0), "size is 0 m, expected a radius above 0 and up to 128 m");
+  EXPECT_EQ(sentence(129.0, 1.0), "size is 129 m, expected a radius above 0 and up to 128 m");
+  EXPECT_NE(sentence(nan, 1.0), "");
+  EXPECT_EQ(sentence(4.0, 5.0),
+            "depth is 5 m, expected at most the size, down or, to heap up, negative, and not 0");
+  EXPECT_NE(sentence(4.0, 0.0), "");
+  EXPECT_NE(sentence(4.0, nan), "");
+  EXPECT_NE(sentence(4.0, 5e-324), "");
+  for (const std::string_view tool : kTools) {
+    const std::string least = sentence(0.05, 0.01, std::string(tool).c_str());
+    ASSERT_NE(least.find("expected at least "), std::string::npos) << least;
+    const double size = std::stod(least.substr(least.find("at least ") + 9));
+    if (tool == "ball") continue;  // whose outline depends on the depth, too
+    EXPECT_EQ(sentence(size * 1.001, 0.01, std::string(tool).c_str()), "");
+  }
+  const DeformRegion wide{.columns = 8193, .rows = 1, .intervals = 32, .spacing = 2.0};
+  const auto tooWide = SandIsland::begin(wide, flat().view());
+  ASSERT_FALSE(tooWide.ok());
+  EXPECT_EQ(
+      tooWide.error().message,
+      "sand cannot hold a region of 262176 x 32 squares: at most 262144 along a side and 1073741824 in all");
+  HeightMap high = flat();
+  high(7, 5) = 16385.0F;
+  const auto tooHigh = SandIsland::begin(kRegion, high.view());
+  ASSERT_FALSE(tooHigh.ok());
+  EXPECT_EQ(tooHigh.error().message, "sand cannot hold ground at 16385 m, only from -16384 m to 16384 m");
+}
+
+}  // namespace
+}  // namespace teren
