@@ -1,10 +1,11 @@
-// Counts the allocations of the thread that asks, in a program that links apps/check/AllocationCount.cpp.
+// Counts allocations, in a program that links apps/check/AllocationCount.cpp.
 #pragma once
 
 #include "apps/check/AllocationCount.h"
 
 namespace teren::test {
 
+using check::allocatedBytes;
 using check::allocationCount;
 
 }  // namespace teren::test

@@ -20,9 +20,9 @@
 #include "teren/Engine.h"
 #include "teren/PixelError.h"
 
-#include "apps/check/HeapUse.h"
 #include "tests/engine/stream/FaultWorld.h"
 #include "tests/engine/stream/NodeErrorsWait.h"
+#include "tests/support/AllocationCount.h"
 
 namespace teren {
 namespace {
@@ -260,17 +260,18 @@ TEST_P(Detail, CountsAllThatItHasFromTheHeapAtEveryMoment) {
   const DetailSettings sharp{.pixelError = 6.0, .distance = 3000.0};
   DetailFlight(GetParam(), sharp).engine->settle();  // what a program takes once
   DetailFlight flight(GetParam(), sharp, 12 * kMiB);
-  const std::size_t before = check::heapBytes() - flight.engine->figures().bytes;
+  const std::size_t before = test::allocatedBytes() - flight.engine->figures().bytes;
   for (int step = 0; step < 400; ++step) {
     const double leap = step % 100 == 99 ? 1e5 * step : 0.0;
     flight.moveTo(leap + 20.0 * step, 200.0 * std::sin(0.05 * step));
     flight.engine->update(1.0 / 60.0, microseconds(2000));
     ASSERT_TRUE(flight.engine->sceneQuery());
-    const std::size_t held = check::heapBytes() - before, counted = flight.engine->figures().bytes;
-    ASSERT_LE(held, counted + counted / 32 + kMiB / 8) << "step " << step;
+    const std::size_t held = test::allocatedBytes() - before, counted = flight.engine->figures().bytes;
+    ASSERT_LE(held, counted + kMiB / 32) << "step " << step;
     ASSERT_LE(counted, 12 * kMiB);
   }
-  EXPECT_GE(check::heapBytes() - before, flight.engine->figures().bytes / 2) << "no cap is for so much air";
+  EXPECT_GE(test::allocatedBytes() - before, flight.engine->figures().bytes / 2)
+      << "no cap is for so much air";
 }
 
 TEST_P(Detail, KeepsNoSnapshotButTheLastWhileItRests) {
