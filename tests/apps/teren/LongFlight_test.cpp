@@ -80,7 +80,15 @@ void expectNoGrowth(std::int64_t cap, const Arguments& added) {
                                      std::max<std::int64_t>(growth("engine_bytes"), 0) +
                                      growth("query_bytes"))
       << told;
-  EXPECT_LT(growth("used_bytes") - growth("engine_bytes") - growth("query_bytes") * 11 / 10, kMiB)
+  // What is counted includes room that is not in use yet, more in one minute and less in another.
+  std::vector<std::int64_t> uncounted;
+  for (const Json& held : memory) {
+    uncounted.push_back(held.at("used_bytes").get<std::int64_t>() -
+                        held.at("engine_bytes").get<std::int64_t>() -
+                        held.at("query_bytes").get<std::int64_t>() * 11 / 10);
+  }
+  EXPECT_LT(*std::min_element(uncounted.end() - 3, uncounted.end()),
+            *std::max_element(uncounted.begin() + 1, uncounted.begin() + 4) + kMiB / 2)
       << "not counted\n"
       << told;
 }
