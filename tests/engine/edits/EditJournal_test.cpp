@@ -92,6 +92,18 @@ int inAnotherProcess(const std::function<int()>& work) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// No file of this process may have more bytes, as on a disk that is full; until freeDisk().
+void fillDisk(std::uintmax_t bytes) {
+  signal(SIGXFSZ, SIG_IGN);
+  const rlimit full = {static_cast<rlim_t>(bytes), RLIM_INFINITY};
+  setrlimit(RLIMIT_FSIZE, &full);
+}
+
+void freeDisk() {
+  const rlimit free = {RLIM_INFINITY, RLIM_INFINITY};
+  setrlimit(RLIMIT_FSIZE, &free);
+}
+
 std::vector<std::string> namesIn(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -511,15 +523,13 @@ TEST(EditJournal, IsWholeBesideAReaderAndOnAFullDiskWhileItIsCompacted) {
   const auto file = folder / "land.edits";
   write(file, 3000);
   const int answer = inAnotherProcess([&] {
-    signal(SIGXFSZ, SIG_IGN);
     const auto journal = EditJournal::open(file, kWorld);
     if (!journal) return 1;
-    const rlimit full = {4096, RLIM_INFINITY}, free = {RLIM_INFINITY, RLIM_INFINITY};
-    setrlimit(RLIMIT_FSIZE, &full);
+    fillDisk(4096);
     if ((*journal)->compact(nullptr)) return 2;
     const auto read = EditJournal::read(file, kWorld);
     if (!read || read->damage || read->history.edits != numberedUpTo(3000)) return 3;
-    setrlimit(RLIMIT_FSIZE, &free);
+    freeDisk();
     (*journal)->append(numbered(3001));
     return (*journal)->flush() ? 0 : 4;
   });
@@ -586,12 +596,9 @@ TEST(EditJournal, GoesOnInMemoryWhereTheDiskIsFullAndWritesAllOnceThereIsRoom) {
   const auto file = folder / "land.edits";
   write(file, 10);
   const int answer = inAnotherProcess([&] {
-    signal(SIGXFSZ, SIG_IGN);
     const auto journal = EditJournal::open(file, kWorld);
     if (!journal) return 1;
-    const rlimit full = {static_cast<rlim_t>(std::filesystem::file_size(file)) + 40'000, RLIM_INFINITY};
-    const rlimit free = {RLIM_INFINITY, RLIM_INFINITY};
-    setrlimit(RLIMIT_FSIZE, &full);
+    fillDisk(std::filesystem::file_size(file) + 40'000);
     for (std::uint64_t number = 11; number <= 5000; ++number) {
       (*journal)->append(numbered(number));
       if (number % 100 == 0) (void)(*journal)->flush();
@@ -606,18 +613,17 @@ TEST(EditJournal, GoesOnInMemoryWhereTheDiskIsFullAndWritesAllOnceThereIsRoom) {
     if (!read || read->damage || read->history.edits.size() < 10 || read->history.edits.size() >= 5000)
       return 5;
     if (read->history.edits != numberedUpTo(read->history.edits.size())) return 6;
-    setrlimit(RLIMIT_FSIZE, &free);
+    freeDisk();
     if (!(*journal)->flush()) return 7;
     const std::string again = "\"" + file.string() + "\" can be written again, and has all edits";
     if ((*journal)->takeMessage() != again || (*journal)->takeMessage()) return 8;
     (*journal)->append(numbered(5001));
     if (!(*journal)->flush() || (*journal)->takeMessage()) return 9;
     // Full once more, which is told once more.
-    const rlimit fuller = {static_cast<rlim_t>(std::filesystem::file_size(file)), RLIM_INFINITY};
-    setrlimit(RLIMIT_FSIZE, &fuller);
+    fillDisk(std::filesystem::file_size(file));
     for (std::uint64_t number = 5002; number <= 12'000; ++number) (*journal)->append(numbered(number));
     if ((*journal)->flush() || !(*journal)->takeMessage()) return 10;
-    setrlimit(RLIMIT_FSIZE, &free);
+    freeDisk();
     return (*journal)->flush() ? 0 : 11;
   });
   EXPECT_EQ(answer, 0);
@@ -629,17 +635,14 @@ TEST(EditJournal, ForgetsWhatItIsToldToAbandonAndGoesOn) {
   const auto file = folder / "land.edits";
   write(file, 10);
   const int answer = inAnotherProcess([&] {
-    signal(SIGXFSZ, SIG_IGN);
     const auto journal = EditJournal::open(file, kWorld);
     if (!journal) return 1;
-    const rlimit full = {static_cast<rlim_t>(std::filesystem::file_size(file)) + 40'000, RLIM_INFINITY};
-    const rlimit free = {RLIM_INFINITY, RLIM_INFINITY};
-    setrlimit(RLIMIT_FSIZE, &full);
+    fillDisk(std::filesystem::file_size(file) + 40'000);
     (*journal)->append(std::vector<Edit>(5000, numbered(1)));
     if ((*journal)->flush()) return 2;
     const std::string why = (*journal)->abandon().message;
     if (why.find("cannot write \"" + file.string() + "\": ") != 0) return 3;
-    setrlimit(RLIMIT_FSIZE, &free);
+    freeDisk();
     (*journal)->append(numbered(11));
     return (*journal)->flush() ? 0 : 4;
   });

@@ -1,9 +1,7 @@
 // A program that dies at any moment loses nothing that its editor has handed out.
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <string>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -12,6 +10,7 @@
 #include "teren/GroundEditor.h"
 #include "teren/Hash.h"
 
+#include "tests/engine/edits/KilledChild.h"
 #include "tests/engine/edits/TestDeformers.h"
 #include "tests/engine/plugin/ScratchFolder.h"
 #include "tests/engine/stream/FaultWorld.h"
@@ -81,26 +80,11 @@ TEST(GroundEditorDeath, LosesNothingThatWasHandedOutAndNothingIsThereByHalf) {
   EditHistory history;
   std::uint64_t number = 0;
   for (int death = 0; death < deaths; ++death) {
-    int ends[2];
-    ASSERT_EQ(pipe(ends), 0);
-    const pid_t child = fork();
-    if (child == 0) {
-      close(ends[0]);
-      dig(file, ends[1], history, number);
-    }
-    close(ends[1]);
-    std::uint64_t shown = number, told = 0;
     // Every fourth time, while the journal is being begun, opened or applied again.
-    const auto wait = death % 4 == 0 ? 0 : random.nextBits(4) + 1;
-    for (std::int64_t k = 0; k < wait && read(ends[0], &told, sizeof told) == sizeof told; ++k) shown = told;
-    usleep(static_cast<useconds_t>(random.nextBits(13)));
-    kill(child, SIGKILL);
-    while (read(ends[0], &told, sizeof told) == sizeof told) shown = told;
-    close(ends[0]);
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself with " << WEXITSTATUS(status);
-
+    const std::uint64_t wait = death % 4 == 0 ? 0 : random.nextBits(4) + 1;
+    const std::uint64_t shown = test::lastToldBeforeDeath([&](int pipe) { dig(file, pipe, history, number); },
+                                                          wait, random.nextBits(13), number);
+    if (HasFailure()) return;
     if (!std::filesystem::exists(file)) continue;  // it had not come so far
     const auto record = EditJournal::read(file, world()->descriptionHash());
     ASSERT_TRUE(record) << record.error().message;

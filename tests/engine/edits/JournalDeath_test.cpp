@@ -1,8 +1,6 @@
 // A program that dies at any moment loses no edit that was acknowledged.
-#include <csignal>
 #include <cstdlib>
 #include <string>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -10,6 +8,7 @@
 #include "teren/EditJournal.h"
 #include "teren/Hash.h"
 
+#include "tests/engine/edits/KilledChild.h"
 #include "tests/engine/plugin/ScratchFolder.h"
 
 namespace teren {
@@ -45,27 +44,11 @@ TEST(EditJournalDeath, LosesNothingThatWasAcknowledgedAndNothingIsThereByHalf) {
   RandomSequence random(20261122);
   std::uint64_t before = 0;
   for (int death = 0; death < deaths; ++death) {
-    int ends[2];
-    ASSERT_EQ(pipe(ends), 0);
-    const pid_t child = fork();
-    if (child == 0) {
-      close(ends[0]);
-      dig(file, ends[1]);
-    }
-    close(ends[1]);
-    std::uint64_t acknowledged = 0, told = 0;
     // Every third time, while the file is being begun or opened; else after a few acknowledgements.
-    const auto wait = death % 3 == 0 ? 0 : random.nextBits(4) + 1;
-    for (std::int64_t k = 0; k < wait && read(ends[0], &told, sizeof told) == sizeof told; ++k)
-      acknowledged = told;
-    usleep(static_cast<useconds_t>(random.nextBits(13)));
-    kill(child, SIGKILL);
-    while (read(ends[0], &told, sizeof told) == sizeof told) acknowledged = told;
-    close(ends[0]);
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself with " << WEXITSTATUS(status);
-
+    const std::uint64_t wait = death % 3 == 0 ? 0 : random.nextBits(4) + 1;
+    const std::uint64_t acknowledged =
+        test::lastToldBeforeDeath([&](int pipe) { dig(file, pipe); }, wait, random.nextBits(13), 0);
+    if (HasFailure()) return;
     if (!std::filesystem::exists(file)) continue;  // it had not come so far
     const auto record = EditJournal::read(file, kWorld);
     ASSERT_TRUE(record) << record.error().message;
