@@ -139,6 +139,11 @@ class @CLASS@Surface final : public teren::LiveSurface {
   std::shared_ptr<const teren::DeformedGround> snapshot() override { return grid_.snapshot(); }
   std::size_t bytes() const noexcept override { return grid_.bytes(); }
 
+  teren::Result<void> grow(const teren::DeformRegion& region, teren::ConstHeightView ground) override {
+    grid_.grow(region, ground);
+    return {};
+  }
+
  private:
   teren::DeformGrid grid_;
 };

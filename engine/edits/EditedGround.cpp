@@ -49,11 +49,17 @@ struct Live {
   std::string kind;
   std::shared_ptr<const Deformer> deformer;
   PatchRectangle patches;
-  HeightMap ground;  // as it was when the surface began
+  HeightMap ground;  // as it was when the surface began, or grew there
   std::unique_ptr<LiveSurface> surface;
   std::uint64_t stepsAtEdit = 0;  // its steps when the latest edit came
   SampleRectangle written{};      // what is in the overrides
   bool isWritten = true;          // and it is how the surface is now
+};
+
+/// Patches over which no other surface lives any more.
+struct Room {
+  PatchRectangle patches;
+  Live* growing = nullptr;  // over which this one is to grow; null: a new one begins
 };
 
 /// What a plugin's function answers; an exception of its is a sentence.
@@ -195,7 +201,8 @@ class EditedGround::State {
   Result<void> run(Live& live, std::uint64_t upTo, const EditWork& work) const;
   Result<void> runToRest(Live& live, const EditWork& work) const;
   Result<void> write(Live& live);
-  Result<PatchRectangle> clear(const PlacedEdit& edit, const EditWork& work);
+  Result<Room> clear(const PlacedEdit& edit, const EditWork& work);
+  Result<bool> grow(Live& live, const PatchRectangle& patches, const HeightMap& ground) const;
   Result<HeightMap> groundOf(const PatchRectangle& patches, const EditWork& work);
   Result<Live*> surfaceFor(const PlacedEdit& edit, const EditWork& work);
   DeformRegion regionOf(const PatchRectangle& patches) const noexcept;
@@ -323,20 +330,44 @@ Result<void> EditedGround::State::write(Live& live) {
   return {};
 }
 
-/// Ends the surfaces in the way of an edit, and says over which patches a new one begins.
-Result<PatchRectangle> EditedGround::State::clear(const PlacedEdit& edit, const EditWork& work) {
-  PatchRectangle patches = edit.needed;
+/// Ends the surfaces in the way of an edit but for the first one of its kind, which is to grow.
+Result<Room> EditedGround::State::clear(const PlacedEdit& edit, const EditWork& work) {
+  Room room{edit.needed};
   for (;;) {
-    const auto inTheWay = std::find_if(live_.begin(), live_.end(),
-                                       [&](const Live& live) { return live.patches.overlaps(patches); });
-    if (inTheWay == live_.end()) return patches;
+    const auto inTheWay = std::find_if(live_.begin(), live_.end(), [&](const Live& live) {
+      return &live != room.growing && live.patches.overlaps(room.patches);
+    });
+    if (inTheWay == live_.end()) return room;
     if (Result<void> done = runToRest(*inTheWay, work); !done) return done.error();
     if (Result<void> written = write(*inTheWay); !written) return written.error();
-    const PatchRectangle larger = patches.joinedWith(inTheWay->patches);
-    if (inTheWay->kind == edit.kind && larger.samples(world_.intervals()) <= kMostJoinedSamples)
-      patches = larger;
-    live_.erase(inTheWay);
+    const PatchRectangle larger = room.patches.joinedWith(inTheWay->patches);
+    const bool joins =
+        inTheWay->kind == edit.kind && larger.samples(world_.intervals()) <= kMostJoinedSamples;
+    if (joins) room.patches = larger;
+    if (joins && room.growing == nullptr) {
+      room.growing = &*inTheWay;
+    } else {
+      live_.erase(inTheWay);
+    }
   }
+}
+
+/// False: the surface refuses. It is at rest, and `ground` is the ground of the patches with its samples.
+Result<bool> EditedGround::State::grow(Live& live, const PatchRectangle& patches,
+                                       const HeightMap& ground) const {
+  const DeformRegion region = regionOf(patches);
+  const SampleRectangle place = region.placeOf(regionOf(live.patches));
+  HeightMap before(ground);
+  copyHeights(live.ground.view(), before.view().part(place.column, place.row, place.columns, place.rows));
+  const ConstHeightView heights = before.view();
+  const auto grown = guarded(live.kind, [&] { return live.surface->grow(region, heights); });
+  if (!grown) return grown.error();
+  if (!*grown) return false;
+  live.patches = patches;
+  live.ground = std::move(before);
+  live.written.column += place.column;
+  live.written.row += place.row;
+  return true;
 }
 
 Result<HeightMap> EditedGround::State::groundOf(const PatchRectangle& patches, const EditWork& work) {
@@ -366,13 +397,19 @@ Result<Live*> EditedGround::State::surfaceFor(const PlacedEdit& edit, const Edit
     return live.kind == edit.kind && live.patches.contains(edit.needed);
   });
   if (ready != live_.end()) return &*ready;
-  const Result<PatchRectangle> patches = clear(edit, work);
-  if (!patches) return patches.error();
-  Result<HeightMap> ground = groundOf(*patches, work);
+  const Result<Room> room = clear(edit, work);
+  if (!room) return room.error();
+  Result<HeightMap> ground = groundOf(room->patches, work);
   if (!ground) return ground.error();
-  Live live{edit.kind, edit.deformer, *patches, *std::move(ground), nullptr};
+  if (room->growing != nullptr) {
+    const Result<bool> grown = grow(*room->growing, room->patches, *ground);
+    if (!grown) return grown.error();
+    if (*grown) return room->growing;
+    live_.remove_if([&](const Live& live) { return &live == room->growing; });
+  }
+  Live live{edit.kind, edit.deformer, room->patches, *std::move(ground), nullptr};
   const ConstHeightView heights = live.ground.view();
-  auto begun = guarded(edit.kind, [&] { return edit.deformer->begin(regionOf(*patches), heights); });
+  auto begun = guarded(edit.kind, [&] { return edit.deformer->begin(regionOf(room->patches), heights); });
   if (!begun) return begun.error();
   if (!*begun) return begun->error();
   if (**begun == nullptr) return Error{"the deformer " + inQuotes(edit.kind) + " began no surface"};

@@ -1,6 +1,7 @@
 #include "generators/crater/CraterSurface.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace teren {
@@ -80,6 +81,13 @@ void CraterSurface::work() {
   begun_ = false;
   ++steps_;
   std::erase_if(smoothings_, [](const Smoothing& smoothing) { return smoothing.stepsLeft() == 0; });
+}
+
+/// Nothing but the grid knows of the region: the smoothings, which do, are done.
+Result<void> CraterSurface::grow(const DeformRegion& region, ConstHeightView ground) {
+  assert(atRest());
+  grid_.grow(region, ground);
+  return {};
 }
 
 std::size_t CraterSurface::bytes() const noexcept {

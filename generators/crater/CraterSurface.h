@@ -43,6 +43,7 @@ class CraterSurface final : public LiveSurface {
   bool atRest() const noexcept override { return smoothings_.empty(); }
   std::shared_ptr<const DeformedGround> snapshot() override { return grid_.snapshot(); }
   std::size_t bytes() const noexcept override;
+  Result<void> grow(const DeformRegion& region, ConstHeightView ground) override;
 
  private:
   void dig(const Stamp& stamp, const CraterTool& tool);

@@ -9,27 +9,49 @@
 
 namespace teren {
 
-/// Squares of 2^shift lattice steps, each open or closed. A point is fixed unless all that lies around it is
-/// open: so what is fixed are closed squares with their borders. Made without squares, nothing is fixed.
-/// O(1), 1 bit a square near those that are open.
+/// A rectangle of squares of 2^shift lattice steps, each open or closed; all others are closed. A point is
+/// fixed unless all that lies around it is open: so what is fixed are closed squares with their borders. Made
+/// without squares, nothing is fixed. O(1), 1 bit a square near those that are open.
 class OpenCells {
  public:
   OpenCells() = default;
-  /// All closed; fewer than 2^32 of them.
-  OpenCells(int columns, int rows, int shift) noexcept : columns_(columns), rows_(rows), shift_(shift) {}
+  /// All closed; fewer than 2^32 of them. The coordinates of `corner`, the south-west one, are whole squares.
+  OpenCells(LatticePoint corner, int columns, int rows, int shift) noexcept
+      : corner_(corner), columns_(columns), rows_(rows), shift_(shift) {}
 
   /// False where nothing is fixed.
   bool hasFence() const noexcept { return columns_ > 0; }
   int shift() const noexcept { return shift_; }
+  LatticePoint corner() const noexcept { return corner_; }
+  std::int32_t width() const noexcept { return columns_ << shift_; }  ///< [steps]
+  std::int32_t height() const noexcept { return rows_ << shift_; }    ///< [steps]
+  /// The south-west corner of a square.
+  LatticePoint point(int column, int row) const noexcept {
+    return {corner_.x + (column << shift_), corner_.y + (row << shift_)};
+  }
+  /// The square in which a place lies, or the one to the north-east of a corner; any place.
+  int columnOf(std::int32_t x) const noexcept { return (x - corner_.x) >> shift_; }
+  int rowOf(std::int32_t y) const noexcept { return (y - corner_.y) >> shift_; }
 
   bool isOpen(int column, int row) const noexcept {
     return 0 <= column && column < columns_ && 0 <= row && row < rows_ && open_.contains(id(column, row));
   }
   void open(int column, int row) { open_.insert(id(column, row)); }
+  /// The same with so many squares more in the west and in the south, closed, and others in the east and the
+  /// north, so that there are `columns` x `rows`. O(squares).
+  OpenCells grown(int west, int south, int columns, int rows) const {
+    OpenCells larger({corner_.x - (west << shift_), corner_.y - (south << shift_)}, columns, rows, shift_);
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        if (isOpen(column, row)) larger.open(column + west, row + south);
+      }
+    }
+    return larger;
+  }
 
   bool isFixed(LatticePoint p) const noexcept {
     if (!hasFence()) return false;
-    const int column = p.x >> shift_, row = p.y >> shift_;
+    const int column = columnOf(p.x), row = rowOf(p.y);
     const std::int32_t within = (std::int32_t{1} << shift_) - 1;
     const bool west = (p.x & within) == 0, south = (p.y & within) == 0;
     return !isOpen(column, row) || (west && !isOpen(column - 1, row)) ||
@@ -44,6 +66,7 @@ class OpenCells {
            static_cast<std::uint32_t>(column);
   }
 
+  LatticePoint corner_;
   int columns_ = 0, rows_ = 0, shift_ = 0;
   MarkSet open_;
 };

@@ -56,14 +56,13 @@ void Opening::collect(const SandSurface& surface, ConstHeightView ground, double
 }
 
 void Opening::enterVertices(SandSurface& surface, ConstHeightView ground) {
-  const int shift = surface.cells().shift();
   VertexId near = 0;
   for (const Cell& cell : cells_) {
     for (int corner = 0; corner < 4; ++corner) {
       const int column = cell.column + corner % 2, row = cell.row + corner / 2;
       VertexId& v = vertex(column, row);
       if (v != kNoVertex) continue;
-      v = near = surface.enter({column << shift, row << shift}, ticksFromMetres(ground(column, row)),
+      v = near = surface.enter(surface.cells().point(column, row), ticksFromMetres(ground(column, row)),
                                surface.mesh().triangleAt(near));
     }
   }

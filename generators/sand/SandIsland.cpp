@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -12,6 +13,8 @@ namespace teren {
 namespace {
 
 constexpr int kShift = std::countr_zero(static_cast<std::uint32_t>(SandIsland::kStepsASpacing));
+constexpr int kMostCells = kLatticeSide >> kShift;
+constexpr std::int64_t kMostInAll = std::int64_t{1} << 30;
 /// A unit of work: some tens of microseconds.
 constexpr std::uint64_t kUnitFaces = 8;
 constexpr std::size_t kUnitVertices = 4;
@@ -33,12 +36,11 @@ Result<ToolShape> shapeOf(const std::string& tool, double size, double depth) {
   return ToolShape::disc(size, depth);
 }
 
-LatticeFrame frameOf(const DeformRegion& region) {
-  return {.x = 0.0,
-          .y = 0.0,
-          .step = region.spacing / SandIsland::kStepsASpacing,
-          .width = (region.sampleColumns() - 1) << kShift,
-          .height = (region.sampleRows() - 1) << kShift};
+/// A lattice as large as can be, with the region in its middle, whose corner has the place (0, 0) m.
+OpenCells cellsOf(const DeformRegion& region) {
+  const int columns = region.sampleColumns() - 1, rows = region.sampleRows() - 1;
+  const auto corner = [](int squares) { return (kMostCells - squares) / 2 << kShift; };
+  return {{corner(columns), corner(rows)}, columns, rows, kShift};
 }
 
 SandSettings settingsFor(double spacing) {
@@ -51,14 +53,45 @@ SandSettings settingsFor(double spacing) {
 }
 
 SandSurface closedSurface(const DeformRegion& region, ConstHeightView ground) {
-  SandSurface surface(frameOf(region), ground(0, 0), 0.0);
-  surface.fence(OpenCells(region.sampleColumns() - 1, region.sampleRows() - 1, kShift));
+  const OpenCells cells = cellsOf(region);
+  const double step = region.spacing / SandIsland::kStepsASpacing;
+  const LatticeFrame frame{.x = -step * cells.corner().x, .y = -step * cells.corner().y, .step = step};
+  SandSurface surface(frame, ground(0, 0), 0.0);
+  surface.fence(cells);
   return surface;
 }
 
 /// [m^3]
 double volumeOf(SixfoldVolume volume, double step) {
   return asDouble(volume) * kMetresPerTick * step * step / 6.0;
+}
+
+Result<void> checkSize(const DeformRegion& region) {
+  const int columns = region.sampleColumns() - 1, rows = region.sampleRows() - 1;
+  if (columns > kMostCells || rows > kMostCells || std::int64_t{columns} * rows > kMostInAll) {
+    return Error{"sand cannot hold a region of " + std::to_string(columns) + " x " + std::to_string(rows) +
+                 " squares: at most " + std::to_string(kMostCells) + " along a side and " +
+                 std::to_string(kMostInAll) + " in all"};
+  }
+  return {};
+}
+
+Result<void> checkHeights(ConstHeightView ground) {
+  const double highest = metresFromTicks(kHighestTick);
+  for (int y = 0; y < ground.rows(); ++y) {
+    for (int x = 0; x < ground.columns(); ++x) {
+      if (std::fabs(ground(x, y)) <= highest) continue;
+      return Error{"sand cannot hold ground at " + metresText(ground(x, y)) + ", only from " +
+                   metresText(-highest) + " to " + metresText(highest)};
+    }
+  }
+  return {};
+}
+
+HeightMap copyOf(ConstHeightView ground) {
+  HeightMap map(ground.columns(), ground.rows());
+  for (int y = 0; y < ground.rows(); ++y) std::copy_n(ground.row(y), ground.columns(), map.view().row(y));
+  return map;
 }
 
 }  // namespace
@@ -100,31 +133,15 @@ Result<SandPress> SandIsland::read(const Stamp& stamp, double spacing) {
 }
 
 Result<std::unique_ptr<LiveSurface>> SandIsland::begin(const DeformRegion& region, ConstHeightView ground) {
-  constexpr int kMostCells = kLatticeSide >> kShift;
-  constexpr std::int64_t kMostInAll = std::int64_t{1} << 30;
-  const int columns = region.sampleColumns() - 1, rows = region.sampleRows() - 1;
-  if (columns > kMostCells || rows > kMostCells || std::int64_t{columns} * rows > kMostInAll) {
-    return Error{"sand cannot hold a region of " + std::to_string(columns) + " x " + std::to_string(rows) +
-                 " squares: at most " + std::to_string(kMostCells) + " along a side and " +
-                 std::to_string(kMostInAll) + " in all"};
-  }
-  const double highest = metresFromTicks(kHighestTick);
-  for (int y = 0; y < ground.rows(); ++y) {
-    for (int x = 0; x < ground.columns(); ++x) {
-      if (std::fabs(ground(x, y)) <= highest) continue;
-      return Error{"sand cannot hold ground at " + metresText(ground(x, y)) + ", only from " +
-                   metresText(-highest) + " to " + metresText(highest)};
-    }
-  }
+  if (Result<void> fits = checkSize(region); !fits) return fits.error();
+  if (Result<void> held = checkHeights(ground); !held) return held.error();
   return std::unique_ptr<LiveSurface>(new SandIsland(region, ground));
 }
 
 SandIsland::SandIsland(const DeformRegion& region, ConstHeightView ground)
-    : ground_(ground.columns(), ground.rows()),
+    : ground_(copyOf(ground)),
       grid_(region, ground),
-      sandbox_(closedSurface(region, ground), settingsFor(region.spacing)) {
-  for (int y = 0; y < ground.rows(); ++y) std::copy_n(ground.row(y), ground.columns(), ground_.view().row(y));
-}
+      sandbox_(closedSurface(region, ground), settingsFor(region.spacing)) {}
 
 Result<void> SandIsland::apply(const Stamp& stamp) {
   const Result<SandPress> press = read(stamp, grid_.region().spacing);
@@ -183,24 +200,45 @@ void SandIsland::work() {
   ++steps_;
 }
 
+Result<void> SandIsland::grow(const DeformRegion& region, ConstHeightView ground) {
+  assert(atRest());
+  if (Result<void> fits = checkSize(region); !fits) return fits;
+  const auto [west, south, ownColumns, ownRows] = region.placeOf(grid_.region());
+  const LatticePoint corner = surface().cells().point(-west, -south);
+  const int columns = region.sampleColumns() - 1, rows = region.sampleRows() - 1;
+  const auto fits = [](std::int32_t from, int squares) {
+    return from >= 0 && (from >> kShift) + squares <= kMostCells;
+  };
+  if (!fits(corner.x, columns) || !fits(corner.y, rows)) {
+    return Error{"sand cannot grow to a region of " + std::to_string(columns) + " x " + std::to_string(rows) +
+                 " squares: its lattice of " + std::to_string(kMostCells) + " along a side ends before"};
+  }
+  if (Result<void> held = checkHeights(ground); !held) return held;
+  grid_.grow(region, ground);
+  ground_ = copyOf(ground);
+  sandbox_.grow(west, south, columns, rows);
+  return {};
+}
+
 /// Takes the TIN's heights at the samples within a triangle.
 void SandIsland::sample(TriangleId t) {
   const Triangulation& mesh = surface().mesh();
   const std::array<VertexId, 3>& corners = mesh.corners(t);
   const LatticePoint a = mesh.point(corners[0]), b = mesh.point(corners[1]), c = mesh.point(corners[2]);
+  const OpenCells& cells = surface().cells();
   const auto middle = [](std::int32_t one, std::int32_t two, std::int32_t three) {
-    return static_cast<int>((std::int64_t{one} + two + three) / 3 >> kShift);
+    return static_cast<std::int32_t>((std::int64_t{one} + two + three) / 3);
   };
   // No triangle lies on both sides of the fence.
-  if (!surface().cells().isOpen(middle(a.x, b.x, c.x), middle(a.y, b.y, c.y))) return;
+  if (!cells.isOpen(cells.columnOf(middle(a.x, b.x, c.x)), cells.rowOf(middle(a.y, b.y, c.y)))) return;
   const auto [west, east] = std::minmax({a.x, b.x, c.x});
   const auto [south, north] = std::minmax({a.y, b.y, c.y});
   constexpr std::int32_t kUp = kStepsASpacing - 1;
-  for (int y = (south + kUp) >> kShift; y <= north >> kShift; ++y) {
-    for (int x = (west + kUp) >> kShift; x <= east >> kShift; ++x) {
-      const LatticePoint p{x << kShift, y << kShift};
+  for (int y = cells.rowOf(south + kUp); y <= cells.rowOf(north); ++y) {
+    for (int x = cells.columnOf(west + kUp); x <= cells.columnOf(east); ++x) {
+      const LatticePoint p = cells.point(x, y);
       if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0 || orientation(c, a, p) < 0) continue;
-      if (surface().cells().isFixed(p)) continue;
+      if (cells.isFixed(p)) continue;
       const double ground = ground_(x, y), height = mesh.heightAt(p, t);
       const double now = std::fabs(height - ground) <= tolerance() ? ground : height;
       if (grid_(x, y) != now) grid_.set(x, y, now);

@@ -26,7 +26,8 @@ struct SandPress {
 };
 
 /// A triangulation (TIN) in the middle of the region's grid. Its lattice is the world's, level-0 spacing /
-/// 1024 a step, counted from the region's south-west patch corner, so islands differ by whole steps. It
+/// 1024 a step; patch corners are whole squares of 1024 steps, so islands differ by whole steps. The lattice
+/// is 2^18 squares a side, with the first region in its middle: however the island grows, no point moves. It
 /// begins without any sand. Each stamp first takes the squares within its reach into the TIN, exactly as
 /// nodes draw them (Opening.h), as solid ground; vertices that are flat go from there to the clean-up's
 /// tolerance. What tools cut becomes loose, and only loose material slides (Sandbox.h).
@@ -78,6 +79,8 @@ class SandIsland final : public LiveSurface {
   bool atRest() const noexcept override { return !begun_ && sandbox_.isDone(); }
   std::shared_ptr<const DeformedGround> snapshot() override;
   std::size_t bytes() const noexcept override;
+  /// Refuses a region beyond its lattice, and what begin() refuses.
+  Result<void> grow(const DeformRegion& region, ConstHeightView ground) override;
 
   const SandSurface& surface() const noexcept { return sandbox_.surface(); }
   /// So many faces are looked at until sand lies as it lies.

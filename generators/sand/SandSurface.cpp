@@ -48,6 +48,16 @@ Result<void> SandSurface::hasRoom(std::size_t vertices) {
                std::to_string(kMostVertices) + " to get more"};
 }
 
+void SandSurface::fence(const OpenCells& cells) {
+  cells_ = cells;
+  mesh_.expectWithin(cells_.corner(), cells_.width(), cells_.height());
+}
+
+void SandSurface::grow(int west, int south, int columns, int rows) {
+  fence(cells_.grown(west, south, columns, rows));
+  mesh_.moveTo(-step() * cells_.corner().x, -step() * cells_.corner().y);
+}
+
 /// Calls visit(triangle) for all triangles at v and returns their weight.
 template <class Visitor>
 std::int64_t SandSurface::weigh(VertexId v, Visitor&& visit) const {

@@ -49,9 +49,11 @@ class SandSurface {
 
   const Triangulation& mesh() const noexcept { return mesh_; }
   /// Closes all squares of a grid: for a box to which its ground comes square by square (Opening.h).
-  void fence(const OpenCells& cells) { cells_ = cells; }
+  void fence(const OpenCells& cells);
   const OpenCells& cells() const noexcept { return cells_; }
   void open(int column, int row) { cells_.open(column, row); }
+  /// OpenCells::grown. The corner of the squares has the place (0, 0) m, before and from then on.
+  void grow(int west, int south, int columns, int rows);
   bool isFixed(VertexId v) const noexcept { return cells_.isFixed(mesh_.point(v)); }
   double step() const noexcept { return mesh_.frame().step; }  // [m]
   std::int64_t height(VertexId v) const noexcept { return ticksOf(mesh_.height(v)); }

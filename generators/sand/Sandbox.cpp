@@ -65,6 +65,7 @@ Result<StampReport> Sandbox::stamp(const ToolShape& tool, const StampPlace& plac
 }
 
 void Sandbox::open(ConstHeightView ground, double x, double y, double distance) {
+  slides_.forgetGone(surface_);  // slots that triangles outside may take now
   opening_.enter(surface_, ground, x, y, distance);
   surface_.clearChanges();  // nobody has seen it, and it is solid
   for (const VertexId v : opening_.inside()) cleanUp_.add(v);

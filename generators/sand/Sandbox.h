@@ -54,6 +54,8 @@ class Sandbox {
   Result<StampReport> stamp(const ToolShape& tool, const StampPlace& place);
   /// Takes the squares of a grid of ground within a distance of a place [m] into a fenced box; Opening.h.
   void open(ConstHeightView ground, double x, double y, double distance);
+  /// SandSurface::grow: nobody sees anything change.
+  void grow(int west, int south, int columns, int rows) { surface_.grow(west, south, columns, rows); }
   /// Pours loose sand on: a mound, paraboloid of revolution, on what lies there. All in metres, finite, the
   /// radius at least 32 steps and its disc in the box. What slides, slides later.
   void pour(double x, double y, double radius, double height);

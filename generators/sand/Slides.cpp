@@ -74,6 +74,18 @@ void Slides::stop() noexcept {
   position_ = 0;
 }
 
+void Slides::forgetGone(const SandSurface& surface) {
+  const auto isGone = [&](TriangleId t) {
+    if (surface.mesh().isTriangle(t)) return false;
+    waiting_.erase(t);
+    return true;
+  };
+  now_.erase(now_.begin(), now_.begin() + static_cast<std::ptrdiff_t>(position_));
+  position_ = 0;
+  std::erase_if(now_, isGone);
+  std::erase_if(next_, isGone);
+}
+
 void Slides::look(SandSurface& surface, TriangleId t) {
   Face face = surface.unweighedFace(t);
   const double slope = slopeOf(face, surface.step());
@@ -82,8 +94,10 @@ void Slides::look(SandSurface& surface, TriangleId t) {
   if (std::none_of(face.begin(), face.end(), bears)) return;
   const std::array<VertexId, 3> corners = surface.mesh().corners(t);
   for (std::size_t i = 0; i < 3; ++i) {
-    face[i].weight = surface.weight(corners[i], stars_[i]);
     face[i].isFixed = surface.isFixed(corners[i]);
+    // Of what lies around a fixed corner some is outside, and must leave no trace.
+    face[i].weight = face[i].isFixed ? orientation(face[0].place, face[1].place, face[2].place)
+                                     : surface.weight(corners[i], stars_[i]);
   }
   const auto move = slideFace(face, repose_, surface.step(), surface.ledger());
   if (!move || (slope > repose_.divide && divideEdges(surface, t, face))) return;

@@ -52,6 +52,10 @@ class Slides {
   /// All triangles there are.
   void addAll(const SandSurface& surface);
 
+  /// Triangles that are gone wait no longer: whatever comes into their slots does so where it is added.
+  /// O(those that wait).
+  void forgetGone(const SandSurface& surface);
+
   /// Whatever waits lies still, however steep, until it is added again.
   void stop() noexcept;
   bool atRest() const noexcept { return position_ == now_.size() && next_.empty(); }

@@ -7,7 +7,7 @@
 namespace teren {
 
 Triangulation::Triangulation(const LatticeFrame& frame, double height)
-    : frame_(frame), grid_(frame.width, frame.height) {
+    : frame_(frame), grid_({0, 0}, frame.width, frame.height) {
   assert(1 <= frame.width && frame.width <= kLatticeSide);
   assert(1 <= frame.height && frame.height <= kLatticeSide);
   assert(frame.step > 0.0 && std::isfinite(height));
@@ -38,6 +38,11 @@ std::size_t Triangulation::bytes() const noexcept {
          ring_.capacity() * sizeof(RingCorner) + due_.capacity() * sizeof(Due) +
          suspects_.capacity() * sizeof(Link) + (crossed_.capacity() + made_.capacity()) * sizeof(Edge) +
          pieces_.capacity() * sizeof(Piece);
+}
+
+void Triangulation::expectWithin(LatticePoint corner, std::int32_t width, std::int32_t height) {
+  grid_ = JumpGrid(corner, width, height);
+  rebuildGrid();
 }
 
 void Triangulation::rebuildGrid() {

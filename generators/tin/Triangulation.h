@@ -65,6 +65,10 @@ class Triangulation {
   void reserve(std::size_t vertices);
 
   const LatticeFrame& frame() const noexcept { return frame_; }
+  /// The box lies with its south-west corner at (x, y) [m] from now on, and all that is in it moves along.
+  void moveTo(double x, double y) noexcept { frame_.x = x, frame_.y = y; }
+  /// Most vertices will be in this part of the box: helps searches there, and decides nothing. O(n).
+  void expectWithin(LatticePoint corner, std::int32_t width, std::int32_t height);
   std::size_t vertexCount() const noexcept { return mesh_.vertexCount(); }
   std::size_t triangleCount() const noexcept { return mesh_.triangleCount(); }
   std::size_t constraintCount() const noexcept { return table_.size(); }
@@ -145,8 +149,7 @@ class Triangulation {
   Insertion insert(LatticePoint p, double height, TriangleId hint = kNoTriangle);
   /// Adds a vertex on the surface as it is: heightAt(p).
   Insertion insertOnSurface(LatticePoint p, TriangleId hint = kNoTriangle);
-  /// Snaps a place [m] to the lattice and adds a vertex there. An error where the place is outside the box,
-  /// or any of the three is not finite.
+  /// Adds a vertex at the lattice point nearest to a place [m]; an error outside the box or where not finite.
   Result<Insertion> insert(double x, double y, double height, TriangleId hint = kNoTriangle);
   /// Adds many vertices in an order of its own, several times faster than one by one; their ids follow a
   /// space-filling curve. As many heights as points; of equal points the one that comes first counts. Where
@@ -201,8 +204,7 @@ class Triangulation {
   /// One corner of the gap that a removed vertex leaves, as seen from there.
   struct RingCorner {
     Rim rim;
-    std::int64_t x = 0;  // [steps] from the removed vertex
-    std::int64_t y = 0;
+    std::int64_t x = 0, y = 0;            // [steps] from the removed vertex
     std::uint32_t before = 0, after = 0;  // its neighbours among the corners that are left
     double time = 0.0;                    // when its ear is due; infinite where it may not be cut
   };
@@ -286,14 +288,12 @@ class Triangulation {
   std::vector<TriangleId>* fenced_ = nullptr;
 
   // Kept between operations so that they allocate nothing.
-  std::vector<Rim> rim_;
-  std::vector<Rim> pending_;
+  std::vector<Rim> rim_, pending_;
   std::vector<TriangleId> freed_;
   std::vector<RingCorner> ring_;
   std::vector<Due> due_;
   std::vector<Link> suspects_;
-  std::vector<Edge> crossed_;
-  std::vector<Edge> made_;
+  std::vector<Edge> crossed_, made_;
   std::vector<Piece> pieces_;
 };
 

@@ -38,5 +38,5 @@ class CraterDeformer final : public teren::Deformer {
 
 }  // namespace
 
-TEREN_DEFORMER_PLUGIN(CraterDeformer, "crater", "1.0",
+TEREN_DEFORMER_PLUGIN(CraterDeformer, "crater", "1.1",
                       "Impact craters with rim and ejecta, and smoothing; a small example of a deformer")

@@ -60,6 +60,23 @@ class DeformGrid {
     return std::make_shared<const Ground>(region_, rows_, changed());
   }
 
+  /// LiveSurface::grow: heights stay, and around them is `ground`.
+  void grow(const DeformRegion& region, ConstHeightView ground) {
+    const SampleRectangle place = region.placeOf(region_);
+    DeformGrid larger(region, ground);
+    for (int y = 0; y < place.rows; ++y) {
+      std::copy_n(&heights_[at(0, y)], place.columns,
+                  &larger.heights_[larger.at(place.column, place.row + y)]);
+    }
+    if (east_ > west_) {
+      larger.west_ = west_ + place.column;
+      larger.east_ = east_ + place.column;
+      larger.south_ = south_ + place.row;
+      larger.north_ = north_ + place.row;
+    }
+    *this = std::move(larger);
+  }
+
   /// What `set` was ever called for.
   SampleRectangle changed() const noexcept {
     if (east_ <= west_) return {};

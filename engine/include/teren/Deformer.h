@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -62,6 +63,13 @@ struct DeformRegion {
     const auto [row, height] = along(north, all.row, all.rows);
     return {column, row, width, height};
   }
+  /// Where in this region the samples of another lie that is a part of it (assert).
+  SampleRectangle placeOf(const DeformRegion& part) const noexcept {
+    const std::int64_t column = (part.i - i) * intervals, row = (part.j - j) * intervals;
+    assert(part.intervals == intervals && part.spacing == spacing && column >= 0 && row >= 0);
+    assert(column + part.sampleColumns() <= sampleColumns() && row + part.sampleRows() <= sampleRows());
+    return {static_cast<int>(column), static_cast<int>(row), part.sampleColumns(), part.sampleRows()};
+  }
 };
 
 /// One press of a tool: a few bytes that give the same ground wherever they are applied.
@@ -119,6 +127,17 @@ class LiveSurface {
 
   /// Every byte held, what it shares with its last snapshot included.
   virtual std::size_t bytes() const noexcept = 0;
+
+  /// At rest only (assert): from now on it covers `region`, of which its own is a part. `ground` has that
+  /// region's samples; those where it lay are the ones that it began with. Stamps are then placed from the
+  /// new corner, and that is all: samples and steps stay, and what comes is as if it had begun over the
+  /// larger region, to the bit where sums of metres are exact. O(samples). Refuses with one sentence a region
+  /// that it cannot hold, and then nothing has changed. A surface that does not grow needs nothing of this:
+  /// where it is in the way it ends, and another begins on its samples.
+  virtual Result<void> grow(const DeformRegion& region, ConstHeightView ground) {
+    (void)region, (void)ground;
+    return Error{"this surface does not grow"};
+  }
 };
 
 /// A kind of deformation. Const and thread-safe. A deformer has no settings of its own: all that can be set

@@ -49,10 +49,12 @@ struct EditWork {
 ///
 /// * An edit needs the patches within its deformer's reach and the collar around that. First everything in
 ///   motion does the edit's logical steps, in the order in which it was begun.
-/// * If a live surface of its kind has all those patches, it is applied there. Otherwise the live surfaces in
-///   the way run to rest, their samples become the ground's, and they end; a new one begins over the bounding
-///   rectangle of the patches needed and those of the ended ones of its kind, unless that has more than
-///   kMostJoinedSamples: then over the needed ones alone.
+/// * If a live surface of its kind has all those patches, it is applied there. Otherwise room is made over
+///   the patches needed: while a live surface is in the way there, the one that began first runs to rest and
+///   its samples become the ground's; one of the edit's kind makes the room the bounding rectangle of both,
+///   unless that had more than kMostJoinedSamples. The first that did so grows over the room
+///   (LiveSurface::grow), so that loose material stays loose; all others end. Where there is none, or it
+///   refuses and ends, too, a new one begins there.
 /// * After each kMostEditsTogether edits everything comes to rest and ends, before anything else is done: so
 ///   the ground then is its samples alone, which is what replay() begins with.
 /// * At level L, samples that coincide with level-0 samples that were changed are these (grids only sample).

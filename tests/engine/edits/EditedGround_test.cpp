@@ -277,6 +277,97 @@ TEST(EditedGround, JoinsTheGroundOfBowlsOfOneKindAsOneSurface) {
   for (const int x : {(192 + 20) / 4, (192 + 300) / 4}) EXPECT_LT(after(x, y), before(x, y) - 2.0F);
 }
 
+/// The patches of a region, baked, with edits or without.
+HeightMap groundOf(const DeformRegion& region, const EditedGround* edits) {
+  return baked({region.i, region.j, region.columns, region.rows, 0}, edits);
+}
+
+Stamp stampIn(const DeformRegion& region, const Edit& edit, std::span<const Parameter> table) {
+  return {edit.x - static_cast<double>(region.i) * 64.0,
+          edit.y - static_cast<double>(region.j) * 64.0,
+          edit.z,
+          edit.size,
+          edit.depth,
+          edit.seed,
+          Values::check(table, edit.parameters, edit.kind).value()};
+}
+
+/// The samples of one surface over the whole region when it has come to rest after each of some edits.
+HeightMap bySurface(const DeformerKind& kind, const DeformRegion& region, const HeightMap& ground,
+                    const std::vector<Edit>& edits) {
+  const auto surface = kind.deformer->begin(region, ground.view()).value();
+  for (const Edit& edit : edits) {
+    EXPECT_TRUE(surface->apply(stampIn(region, edit, kind.parameters)));
+    EXPECT_TRUE(surface->step(Slice::unlimited(), kMostEditSteps));
+  }
+  HeightMap heights(region.sampleColumns(), region.sampleRows());
+  surface->snapshot()->samples({0, 0, heights.columns(), heights.rows()}, heights.view());
+  return heights;
+}
+
+constexpr DeformRegion kAround{-4, -4, 12, 9, 16, 4.0};
+
+TEST(EditedGround, GrowsASurfaceAsIfItHadBegunOverAllOfIt) {
+  const DeformerSource source = deformersOf(PluginRegistry::standard());
+  for (const std::string kind : {"sand", "crater"}) {
+    EditedGround ground(testWorld(), source);
+    std::vector<Edit> edits;
+    for (const auto& [x, y, depth] : {std::tuple(30.0, 30.0, -8.0), std::tuple(75.0, 40.0, 5.0),
+                                      std::tuple(160.5, 20.0, 6.0), std::tuple(-70.0, -40.0, 4.0)}) {
+      edits.push_back({kind, x, y, 0.0, 12.0, depth, 3, ground.stepsSinceEdit(), {}});
+      ASSERT_TRUE(ground.apply(edits.back()));
+      ASSERT_TRUE(ground.rest());
+      EXPECT_TRUE(sameBits(groundOf(kAround, &ground),
+                           bySurface(*source(kind), kAround, groundOf(kAround, nullptr), edits)))
+          << kind << " " << edits.size();
+    }
+  }
+}
+
+TEST(EditedGround, GrowsOverWhatOtherKindsHaveLeft) {
+  // The third edit needs the patches of both surfaces: that of its kind grows, and the other ends.
+  const std::vector<Edit> edits = {bowl(20.0, 20.0), bowl(250.0, 20.0, 20.0, 9, "other-bowl"),
+                                   bowl(160.0, 20.0, 100.0, 9)};
+  const auto other = applied({edits[1]});
+  EXPECT_TRUE(sameBits(
+      groundOf(kAround, applied(edits).get()),
+      bySurface(*testDeformer("bowl"), kAround, groundOf(kAround, other.get()), {edits[0], edits[2]})));
+}
+
+TEST(EditedGround, GrowsTheFirstOfItsKindInTheWayAndEndsTheOthers) {
+  BowlCounts counts;
+  EditedGround ground(testWorld(), countedBowls(counts));
+  const std::vector<Edit> edits = {bowl(20.0, 20.0), bowl(300.0, 20.0, 20.0, 9), bowl(160.0, 20.0, 150.0, 9),
+                                   bowl(20.0, 20.0, 20.0, 9), bowl(400.0, 20.0, 20.0, 9)};
+  for (const Edit& edit : edits) ASSERT_TRUE(ground.apply(edit));
+  ASSERT_TRUE(ground.rest());
+  EXPECT_EQ(counts.begun, 2);
+  EXPECT_EQ(counts.grown, 2);
+  EXPECT_EQ(ground.hash(), applied(edits)->hash());
+}
+
+TEST(EditedGround, BeginsAnotherSurfaceWhereOneDoesNotGrow) {
+  const std::vector<Edit> edits = {bowl(20.0, 20.0, 20.0, 0, "small"), bowl(120.0, 20.0, 20.0, 9, "small")};
+  const auto before = applied({edits[0]});
+  EXPECT_TRUE(
+      sameBits(groundOf(kAround, applied(edits).get()),
+               bySurface(*testDeformer("small"), kAround, groundOf(kAround, before.get()), {edits[1]})));
+}
+
+TEST(EditedGround, GrowsNoSurfaceBeyondTheMostJoinedSamples) {
+  BowlCounts counts;
+  EditedGround ground(testWorld(), countedBowls(counts));
+  std::vector<Edit> edits;
+  for (int k = 0; k < 6; ++k) {
+    edits.push_back(bowl(1900.0 * k, 0.0, 1000.0, 9));
+    ASSERT_TRUE(ground.apply(edits.back()));
+  }
+  ASSERT_TRUE(ground.rest());
+  EXPECT_EQ(counts.begun, 2);
+  EXPECT_EQ(counts.grown, 4);
+  EXPECT_EQ(ground.hash(), applied(edits)->hash());
+}
+
 TEST(EditedGround, RefusesWhatTheListAloneTellsAndStaysAsItWas) {
   EditedGround ground(testWorld(), testDeformer);
   ASSERT_TRUE(ground.apply(bowl(0.0, 0.0)));

@@ -30,7 +30,8 @@ enum class Fault {
   neverSteps,
   beginsNothing,
   overshoots,
-  restores  // no fault, but what is pressed downwards brings the first ground back, exactly
+  doesNotGrow,  // no fault: another one begins
+  restores      // no fault, but what is pressed downwards brings the first ground back, exactly
 };
 
 class BowlGround final : public DeformedGround {
@@ -73,7 +74,8 @@ class BowlSurface final : public LiveSurface {
     });
     if (fault_ == Fault::notFinite) heights_(10, 10) = std::numeric_limits<float>::infinity();
     if (fault_ == Fault::touchesCollar) heights_(10, kCollarCells) += 1.0F;
-    if (fault_ != Fault::none) touched_ = {0, 0, heights_.columns(), heights_.rows()};
+    if (fault_ != Fault::none && fault_ != Fault::doesNotGrow)
+      touched_ = {0, 0, heights_.columns(), heights_.rows()};
     bowls_.push_back(bowl);
     return {};
   }
@@ -94,6 +96,18 @@ class BowlSurface final : public LiveSurface {
     return std::make_shared<BowlGround>(heights_, touched_);
   }
   std::size_t bytes() const noexcept override { return heights_.bytes(); }
+  Result<void> grow(const DeformRegion& region, ConstHeightView ground) override {
+    if (fault_ != Fault::none) return Error{"this bowl does not grow"};
+    const SampleRectangle place = region.placeOf(region_);
+    HeightMap larger(ground.columns(), ground.rows());
+    copyHeights(ground, larger.view());
+    copyHeights(heights_.view(), larger.view().part(place.column, place.row, place.columns, place.rows));
+    heights_ = std::move(larger);
+    touched_.column += place.column;
+    touched_.row += place.row;
+    region_ = region;
+    return {};
+  }
 
  private:
   struct Bowl {
@@ -177,9 +191,9 @@ class BowlDeformer final : public Deformer {
   Fault fault_;
 };
 
-/// "bowl" and "other-bowl" are good; the rest are named after their faults.
+/// "bowl" and "other-bowl" are good, and "small", which does not grow; the rest are named after their faults.
 inline Result<DeformerKind> testDeformer(std::string_view id) {
-  constexpr std::array<std::pair<std::string_view, Fault>, 11> kKinds = {{{"bowl", Fault::none},
+  constexpr std::array<std::pair<std::string_view, Fault>, 12> kKinds = {{{"bowl", Fault::none},
                                                                           {"other-bowl", Fault::none},
                                                                           {"refuses", Fault::refuses},
                                                                           {"throws", Fault::throwsAtStep},
@@ -189,6 +203,7 @@ inline Result<DeformerKind> testDeformer(std::string_view id) {
                                                                           {"never-steps", Fault::neverSteps},
                                                                           {"nothing", Fault::beginsNothing},
                                                                           {"overshoots", Fault::overshoots},
+                                                                          {"small", Fault::doesNotGrow},
                                                                           {"restores", Fault::restores}}};
   for (const auto& [name, fault] : kKinds) {
     if (id == name)
@@ -199,7 +214,7 @@ inline Result<DeformerKind> testDeformer(std::string_view id) {
 
 /// Counts what is asked of the bowls behind it.
 struct BowlCounts {
-  std::atomic<int> begun = 0, applied = 0, snapshots = 0;
+  std::atomic<int> begun = 0, grown = 0, applied = 0, snapshots = 0;
 };
 
 class CountedSurface final : public LiveSurface {
@@ -214,6 +229,9 @@ class CountedSurface final : public LiveSurface {
     return ++counts_.snapshots, surface_->snapshot();
   }
   std::size_t bytes() const noexcept override { return surface_->bytes(); }
+  Result<void> grow(const DeformRegion& region, ConstHeightView ground) override {
+    return ++counts_.grown, surface_->grow(region, ground);
+  }
 
  private:
   std::unique_ptr<LiveSurface> surface_;

@@ -102,6 +102,43 @@ TEST(CraterSurface, DoesAStepOfEverySmoothingInItsOwnStep) {
   EXPECT_EQ(surface.steps(), 19U);
 }
 
+TEST(CraterSurface, GoesOnAfterGrowingAsIfItHadBegunSo) {
+  constexpr DeformRegion kLarge{.i = -1, .j = -2, .columns = 5, .rows = 4, .intervals = 32, .spacing = 2.0};
+  HeightMap ground(kLarge.sampleColumns(), kLarge.sampleRows());
+  RandomSequence random(6);
+  for (int y = 0; y < ground.rows(); ++y) {
+    for (int x = 0; x < ground.columns(); ++x) ground(x, y) = 1e-3F * static_cast<float>(random.nextBits(14));
+  }
+  CraterSurface grown(kRegion, ground.view().part(32, 64, kRegion.sampleColumns(), kRegion.sampleRows()));
+  CraterSurface large(kLarge, ground.view());
+  const auto press = [&](const char* tool, double east, double north, double corner) {
+    ASSERT_TRUE(grown.apply(stamp(tool, east - corner * 64.0, north - corner * 128.0, 12.0, 4.0)).ok());
+    ASSERT_TRUE(large.apply(stamp(tool, east, north, 12.0, 4.0)).ok());
+    ASSERT_TRUE(grown.step(Slice::unlimited(), kEnd));
+    ASSERT_TRUE(large.step(Slice::unlimited(), kEnd));
+  };
+  press("crater", 154.5, 190.0, 1.0);
+  press("smooth", 150.0, 184.0, 1.0);
+  ASSERT_TRUE(grown.grow(kLarge, ground.view()).ok());
+  EXPECT_EQ(grown.steps(), large.steps());
+  for (const double east : {156.5, 70.0, 240.0}) {
+    press("crater", east, 130.0, 0.0);
+    press("smooth", east, 124.0, 0.0);
+  }
+  EXPECT_EQ(grown.steps(), large.steps());
+  const auto all = [&](CraterSurface& surface) {
+    HeightMap map(ground.columns(), ground.rows());
+    surface.snapshot()->samples({0, 0, map.columns(), map.rows()}, map.view());
+    return map;
+  };
+  EXPECT_TRUE(test::sameBits(all(grown).view(), all(large).view()));
+  const SampleRectangle changed = grown.snapshot()->changed(), same = large.snapshot()->changed();
+  EXPECT_EQ(changed.column, same.column);
+  EXPECT_EQ(changed.row, same.row);
+  EXPECT_EQ(changed.columns, same.columns);
+  EXPECT_EQ(changed.rows, same.rows);
+}
+
 TEST(CraterSurface, PutsAStampAfterTheStepThatHasBegun) {
   const auto after = [](bool within) {
     CraterSurface surface(kRegion, hills().view());

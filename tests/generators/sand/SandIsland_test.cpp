@@ -79,6 +79,12 @@ class Island {
   }
   void rest() { ASSERT_TRUE(live_->step(Slice::unlimited(), kEnd)); }
 
+  void grow(const HeightMap& ground, const DeformRegion& region) {
+    const Result<void> grown = live_->grow(region, ground.view());
+    ASSERT_TRUE(grown.ok()) << grown.error().message;
+    region_ = region;
+  }
+
   HeightMap heights() {
     HeightMap map(region_.sampleColumns(), region_.sampleRows());
     live_->snapshot()->samples({0, 0, map.columns(), map.rows()}, map.view());
@@ -100,7 +106,8 @@ void expectSound(Island& island, const HeightMap& ground) {
     const LatticePoint p = surface.mesh().point(v);
     ASSERT_EQ(p.x % SandIsland::kStepsASpacing, 0);
     ASSERT_EQ(p.y % SandIsland::kStepsASpacing, 0);
-    ASSERT_EQ(surface.height(v), ticksFromMetres(ground(p.x >> 10, p.y >> 10)));
+    const OpenCells& cells = surface.cells();
+    ASSERT_EQ(surface.height(v), ticksFromMetres(ground(cells.columnOf(p.x), cells.rowOf(p.y))));
     ASSERT_EQ(surface.loose(v), 0);
   }
 }
@@ -245,6 +252,125 @@ TEST(SandIsland, SpreadsSandOverPatchBordersAsWithinPatches) {
     }
   }
   EXPECT_GT(changed, 300);
+}
+
+/// A region of which kRegion is a part, two patches more to the west, one to the south, others beyond.
+constexpr DeformRegion kLarge{.i = -2, .j = -1, .columns = 8, .rows = 6, .intervals = 32, .spacing = 2.0};
+
+/// The waves of the large region, or the part of them that lies in kRegion.
+HeightMap wavesIn(const DeformRegion& region) {
+  const int x0 = static_cast<int>(region.i) * 32, y0 = static_cast<int>(region.j) * 32;
+  return groundOf(region, [&](int x, int y) { return waves(x + x0 + 64, y + y0 + 64); });
+}
+
+/// Stamps of all tools near a place, and after each some steps: none, few, or all there are.
+void play(Island& island, double east, double north, std::uint64_t seed) {
+  RandomSequence random(seed);
+  for (int count = 0; count < 10; ++count) {
+    const auto near = [&](double middle) {
+      return middle + static_cast<double>(random.nextBits(14)) / 512.0 - 16.0;
+    };
+    const double x = near(east), y = near(north), depth = count % 3 == 2 ? -3.0 : 2.0;
+    island.press(stamp(x, y, 5.0, depth,
+                       {{"tool", std::string(kTools[random.next() % 5])},
+                        {"push", random.nextBits(1) == 0},
+                        {"direction", 8.0 * static_cast<double>(random.nextBits(5))}}));
+    const std::uint64_t pauses[] = {0, 3, kEnd - island->steps()};
+    island->step(Slice::unlimited(), island->steps() + pauses[random.next() % 3]);
+  }
+  island.rest();
+}
+
+TEST(SandIsland, GoesOnAfterGrowingAsIfItHadBegunSo) {
+  constexpr double kEast = 128.0, kNorth = 64.0;  // of kRegion's corner in kLarge
+  const HeightMap ground = wavesIn(kLarge);
+  Island grown(wavesIn(kRegion)), large(ground, kLarge);
+  play(grown, 120.0, 90.0, 5);
+  play(large, 120.0 + kEast, 90.0 + kNorth, 5);
+  const SixfoldVolume account = grown.account();
+  const std::uint64_t steps = grown->steps();
+  grown.grow(ground, kLarge);
+  EXPECT_EQ(grown->steps(), steps);
+  EXPECT_TRUE(grown.account() == account);
+  EXPECT_TRUE(test::sameBits(grown.heights().view(), large.heights().view()));
+  // On the old rim, over the old island, and where nothing was.
+  for (const auto& [east, north] :
+       {std::pair(130.0, 150.0), std::pair(240.0, 150.0), std::pair(400.0, 300.0)}) {
+    play(grown, east, north, 6);
+    play(large, east, north, 6);
+    EXPECT_EQ(grown->steps(), large->steps());
+    ASSERT_TRUE(test::sameBits(grown.heights().view(), large.heights().view()));
+    EXPECT_EQ(grown.surface().mesh().vertexCount(), large.surface().mesh().vertexCount());
+    EXPECT_TRUE(grown.surface().owed() == large.surface().owed());
+    EXPECT_EQ(grown->poured(), large->poured());
+  }
+  expectSound(grown, ground);
+}
+
+TEST(SandIsland, KeepsItsLooseSandLooseWhenItGrows) {
+  const HeightMap ground = flat(kLarge);
+  const auto heap = [](bool grows) {
+    Island island(flat());
+    island.press(stamp(128.0, 96.0, 8.0, -8.0, {{"repose", 45.0}}));
+    island.rest();
+    const HeightMap before = island.heights();
+    if (grows) island.grow(flat(kLarge), kLarge);
+    return std::pair(std::move(island), before(64, 48));
+  };
+  auto [stays, height] = heap(false);
+  auto [grown, same] = heap(true);
+  EXPECT_EQ(height, same);
+  EXPECT_EQ(grown.heights()(64 + 64, 48 + 32), height);
+  EXPECT_GT(steepestLooseSlope(grown.surface()), 0.8);
+  EXPECT_EQ(steepestLooseSlope(grown.surface()), steepestLooseSlope(stays.surface()));
+  // Drier sand beside it lets it slide; a hill of rock would stay.
+  stays.press(stamp(136.0, 96.0, 4.0, 1.0, {{"repose", 20.0}}));
+  grown.press(stamp(136.0 + 128.0, 96.0 + 64.0, 4.0, 1.0, {{"repose", 20.0}}));
+  stays.rest();
+  grown.rest();
+  EXPECT_LT(grown.heights()(64 + 64, 48 + 32), height - 0.5F);
+  EXPECT_EQ(grown.heights()(64 + 64, 48 + 32), stays.heights()(64, 48));
+}
+
+TEST(SandIsland, GrowsAgainAndAgainToAllSides) {
+  Island island(flat());
+  DeformRegion region = kRegion;
+  for (int count = 0; count < 12; ++count) {
+    if (count % 4 == 0) --region.i;
+    if (count % 4 == 1) --region.j;
+    ++(count % 4 < 2 ? region.columns : region.rows);
+    if (count % 4 == 1) ++region.rows;
+    const HeightMap ground = flat(region);
+    island.grow(ground, region);
+    const double middle = 0.5 * (region.sampleColumns() - 1) * region.spacing;
+    island.press(stamp(middle, 64.0 + 8.0 * count, 6.0, 3.0));
+    island.rest();
+    expectSound(island, ground);
+  }
+}
+
+TEST(SandIsland, RefusesToGrowBeyondItsLatticeOrOntoGroundThatItCannotHold) {
+  Island island(flat());
+  island.press(stamp(128.0, 96.0, 8.0, 4.0));
+  island.rest();
+  const HeightMap before = island.heights();
+  DeformRegion region = kRegion;
+  region.i = -4096;
+  region.columns += 4096;
+  const Result<void> beyond = island->grow(region, flat().view());
+  ASSERT_FALSE(beyond.ok());
+  EXPECT_EQ(beyond.error().message,
+            "sand cannot grow to a region of 131200 x 96 squares: its lattice of 262144 along a side ends "
+            "before");
+  region.i = 0;
+  region.columns = 8193;
+  EXPECT_FALSE(island->grow(region, flat().view()).ok());
+  HeightMap high = flat(kLarge);
+  high(7, 5) = 16385.0F;
+  const Result<void> tooHigh = island->grow(kLarge, high.view());
+  ASSERT_FALSE(tooHigh.ok());
+  EXPECT_EQ(tooHigh.error().message, "sand cannot hold ground at 16385 m, only from -16384 m to 16384 m");
+  EXPECT_TRUE(test::sameBits(island.heights().view(), before.view()));
 }
 
 TEST(SandIsland, LeavesLooseMaterialNoSteeperThanItLies) {

@@ -112,6 +112,28 @@ TEST(Triangulation, NeighboursComeCounterClockwiseAndOnTheBorderFromBorderToBord
   EXPECT_EQ(neighbours(mesh, 1), (std::vector<VertexId>{2, centre, south}));
 }
 
+TEST(Triangulation, FindsTheSameWhereverItExpectsItsVertices) {
+  const LatticeFrame frame{.width = 1 << 20, .height = 1 << 20};
+  Triangulation plain(frame), expecting(frame);
+  expecting.expectWithin({1000, 300000}, 5000, 7000);
+  RandomSequence random(3);
+  const auto place = [&] {
+    return LatticePoint{static_cast<std::int32_t>(500 + random.nextBits(13)),
+                        static_cast<std::int32_t>(299000 + random.nextBits(13))};
+  };
+  for (int n = 0; n < 500; ++n) {
+    const LatticePoint p = place();
+    EXPECT_EQ(plain.insert(p, n).vertex, expecting.insert(p, n).vertex);
+  }
+  for (int n = 0; n < 500; ++n) {
+    const LatticePoint p = n % 2 == 0 ? place() : LatticePoint{n * 2000, n * 1000};
+    EXPECT_EQ(plain.heightAt(p), expecting.heightAt(p));
+  }
+  expecting.moveTo(-50.0, 7.0);
+  EXPECT_EQ(expecting.frame().snap(-50.0, 7.0), (LatticePoint{0, 0}));
+  EXPECT_TRUE(expecting.validate().ok());
+}
+
 TEST(Triangulation, HeightsAreExactAtVerticesAndTheSameFromBothSidesOfAnEdge) {
   RandomSequence random(6);
   Triangulation mesh(LatticeFrame{.width = 4096, .height = 4096});
