@@ -52,7 +52,7 @@ void NodeStore::insert(const NodeKey& key, EditedNode node, float bend) {
   NodeHeights& place = *tree_.find(key, LookUp::create);
   assert(!place);
   heightBytes_ += node.heights.bytes();
-  roughness_.emplace(key, Roughness{bend, node.moved});
+  roughness_.insert(key, Roughness{bend, node.moved});
   noteRange(*node.heights);
   place = std::move(node.heights);
 }
@@ -163,8 +163,8 @@ ChangePlan NodeStore::plan(const DrawnChange& change) const {
   std::unordered_set<PieceName, PieceNameHash> kept;
   for (const NodeKey& node : affected) {
     for (PiecePlan& piece : piecesOwnedBy(node, after)) {
-      const auto old = pieces_.find(piece.name);
-      if (old != pieces_.end() && (old->second.nodes.empty() || old->second.nodes == piece.nodes)) {
+      const Drawn* const old = pieces_.find(piece.name);
+      if (old != nullptr && (old->nodes.empty() || old->nodes == piece.nodes)) {
         kept.insert(piece.name);
       } else {
         result.bytes += plannedBytes(piece) + bookkeeping(piece.name);
@@ -235,8 +235,8 @@ bool NodeStore::apply(const DrawnChange& change, std::span<const BuiltPiece> pie
     noteError(built.plan, *built.mesh, false);
     const std::size_t bytes = bytesOf(built.plan.name, *built.mesh);
     const bool isBorder = built.plan.name.piece == Piece::border;
-    pieces_.emplace(built.plan.name,
-                    Drawn{built.mesh, nullptr, bytes, isBorder ? built.plan.nodes : std::vector<NodeKey>{}});
+    pieces_.insert(built.plan.name,
+                   Drawn{built.mesh, nullptr, bytes, isBorder ? built.plan.nodes : std::vector<NodeKey>{}});
     if (!built.mesh->indices->empty()) meshes_.add(built.mesh);  // with n = 2 only corner pieces have any
     meshBytes_ += bytes;
     triangles_ += built.mesh->indices->size() / 3;
@@ -251,7 +251,7 @@ void NodeStore::noteError(const PiecePlan& plan, Mesh& mesh, bool ofComing) cons
   mesh.nodeLevel = plan.name.key.level;
   const std::size_t count = plan.name.piece == Piece::border ? 1 : plan.nodes.size();
   for (std::size_t k = 0; k < count; ++k) {
-    const Roughness& roughness = roughness_.at(plan.nodes[k]);
+    const Roughness& roughness = *roughness_.find(plan.nodes[k]);
     const auto coming = ofComing ? coming_.find(plan.nodes[k]) : coming_.end();
     mesh.bend = std::max(mesh.bend, roughness.bend);
     mesh.moved = std::max(mesh.moved, coming != coming_.end() ? coming->second.moved : roughness.moved);
@@ -259,13 +259,13 @@ void NodeStore::noteError(const PiecePlan& plan, Mesh& mesh, bool ofComing) cons
 }
 
 void NodeStore::dropPiece(const PieceName& name) {
-  const auto piece = pieces_.find(name);
-  meshBytes_ -= piece->second.bytes;
-  droppedBytes_ += piece->second.bytes;
+  const Drawn& piece = *pieces_.find(name);
+  meshBytes_ -= piece.bytes;
+  droppedBytes_ += piece.bytes;
   bookkeepingBytes_ -= bookkeeping(name);
-  triangles_ -= piece->second.mesh->indices->size() / 3;
-  if (!piece->second.mesh->indices->empty()) meshes_.remove(piece->second.mesh->id);
-  pieces_.erase(piece);
+  triangles_ -= piece.mesh->indices->size() / 3;
+  if (!piece.mesh->indices->empty()) meshes_.remove(piece.mesh->id);
+  pieces_.erase(name);
 }
 
 std::size_t NodeStore::bookkeeping(const PieceName& name) noexcept {
@@ -317,7 +317,7 @@ std::size_t NodeStore::planComing(const NodeKey& key, std::vector<PiecePlan>& pl
 
 void NodeStore::exchange(BuiltPiece piece) {
   assert(!showsComing_);
-  Drawn& drawn = pieces_.at(piece.plan.name);
+  Drawn& drawn = *pieces_.find(piece.plan.name);
   assert(!drawn.next && (drawn.nodes.empty() || drawn.nodes == piece.plan.nodes));
   piece.mesh->id = nextId_++;
   noteError(piece.plan, *piece.mesh, true);
@@ -341,7 +341,7 @@ void NodeStore::showComing() {
 bool NodeStore::settleOne() {
   assert(showsComing_);
   if (!exchanged_.empty()) {
-    Drawn& drawn = pieces_.at(exchanged_.back());
+    Drawn& drawn = *pieces_.find(exchanged_.back());
     const std::size_t bytes = bytesOf(exchanged_.back(), *drawn.mesh);
     meshBytes_ -= bytes;
     oldBytes_ += bytes;
@@ -354,7 +354,7 @@ bool NodeStore::settleOne() {
     NodeHeights& place = *tree_.find(key, LookUp::create);
     heightBytes_ -= place.bytes();
     place = std::move(settled->second.heights);
-    roughness_.at(key).moved = settled->second.moved;
+    roughness_.find(key)->moved = settled->second.moved;
     if (NodeHeights* drawn = drawn_.find(key, LookUp::none)) *drawn = place;
     coming_.erase(settled);
   } else {
@@ -396,11 +396,6 @@ std::optional<double> NodeStore::height(const Position& position, int level) con
   return triangleHeight(std::as_const(*held).view(), x, y);
 }
 
-const NodeStore::Drawn* NodeStore::drawnPiece(const PieceName& name) const {
-  const auto found = pieces_.find(name);
-  return found == pieces_.end() ? nullptr : &found->second;
-}
-
 /// The mesh that a square of a drawn node belongs to where that is a grid: its interior, or a seam or a
 /// corner piece between nodes of its level. nullptr: it belongs to the node's border.
 const Mesh* NodeStore::regularMeshAt(const NodeKey& node, const NodePlace& place) const {
@@ -411,7 +406,7 @@ const Mesh* NodeStore::regularMeshAt(const NodeKey& node, const NodePlace& place
                       : acrossColumns             ? Piece::eastSeam
                       : acrossRows                ? Piece::northSeam
                                                   : Piece::interior;
-  const Drawn* const drawn = drawnPiece({node.neighbour(west ? -1 : 0, south ? -1 : 0), piece});
+  const Drawn* const drawn = pieces_.find({node.neighbour(west ? -1 : 0, south ? -1 : 0), piece});
   return drawn == nullptr ? nullptr : shown(*drawn);
 }
 
@@ -442,7 +437,7 @@ std::optional<double> NodeStore::drawnHeight(const Position& position, const See
                           place.y)
         .height;
   }
-  const Drawn* const border = drawnPiece({node, Piece::border});
+  const Drawn* const border = pieces_.find({node, Piece::border});
   return border ? meshHeight(*shown(*border), column, row, x - squareX, y - squareY, seen) : std::nullopt;
 }
 

@@ -24,6 +24,7 @@
 #include "patch/PieceTask.h"
 #include "stream/MeshPages.h"
 #include "stream/SeenVertices.h"
+#include "world/SteadyMap.h"
 
 namespace teren {
 
@@ -88,7 +89,7 @@ class NodeStore {
   void insert(const NodeKey& key, EditedNode node, float bend);
   void insert(const NodeKey& key, NodeHeights heights);  ///< the world's own
   /// [m] Of a node held.
-  float bend(const NodeKey& key) const { return roughness_.at(key).bend; }
+  float bend(const NodeKey& key) const { return roughness_.find(key)->bend; }
   /// [m] Of all heights that have ever been held; lowest > highest where there were none.
   float lowest() const noexcept { return lowest_; }
   float highest() const noexcept { return highest_; }
@@ -224,7 +225,6 @@ class NodeStore {
   std::vector<PiecePlan> piecesOwnedBy(const NodeKey& node, const Surroundings& after) const;
   bool isPossible(const DrawnChange& change) const;
   void dropPiece(const PieceName& name);
-  const Drawn* drawnPiece(const PieceName& name) const;
   const Mesh* regularMeshAt(const NodeKey& node, const NodePlace& place) const;
   void noteError(const PiecePlan& plan, Mesh& mesh, bool ofComing) const;
   std::unique_ptr<PieceTask> makePiece(const PiecePlan& plan, bool ofComing);
@@ -242,7 +242,7 @@ class NodeStore {
   struct Roughness {
     float bend = 0.0F, moved = 0.0F;  // [m] as in Mesh
   };
-  std::unordered_map<NodeKey, Roughness, NodeKeyHash> roughness_;
+  SteadyMap<NodeKey, Roughness, NodeKeyHash> roughness_;
   std::unordered_map<NodeKey, EditedNode, NodeKeyHash> coming_;
   bool showsComing_ = false;
   std::vector<PieceName> exchanged_;
@@ -260,7 +260,7 @@ class NodeStore {
   PatchTree<NodeHeights> drawn_;
   std::size_t drawnCount_ = 0;
   std::vector<std::size_t> drawnAtLevel_;
-  std::unordered_map<PieceName, Drawn, PieceNameHash> pieces_;
+  SteadyMap<PieceName, Drawn, PieceNameHash> pieces_;
   MeshPages meshes_;  // of pieces_, all that have triangles
   GridIndices indices_;
   std::uint64_t nextId_ = 1, serial_ = 0;

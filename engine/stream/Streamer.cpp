@@ -24,6 +24,7 @@ constexpr std::size_t kMostGroundBuilds = 8;
 constexpr std::size_t kMostBuildsOfAWorker = 16;
 constexpr std::size_t kJoinBatch = 16;   // with workers; without, nodes are joined one by one
 constexpr std::size_t kRefinements = 4;  // of four nodes each, likewise
+constexpr std::size_t kUnits = 64;       // nodes looked at between two looks at the clock
 constexpr int kIdleWorks = 3;            // until what was let go of has been freed
 
 // Detail by error:
@@ -210,12 +211,10 @@ void Streamer::chooseUniform(const Position& eye) {
   plan_ = next;
   maps_.setCapacity(plan_.mapBytes);
   rank(viewNodes(eye, {options_.view.level, plan_.radius}, world_));
-  planDrops();
+  drops_.clear();
+  held_.clear();
+  listsHeld_ = true;
   cancelUnwanted();
-  for (std::size_t k = 0; k < wanted_.size(); ++k) {
-    if (!isThere(wanted_[k]) && nodes_.heights(wanted_[k]) && !joining_.contains(wanted_[k]))
-      toJoin_.insert(k);
-  }
 }
 
 void Streamer::chooseGround(std::span<const Motion> motions) {
@@ -266,20 +265,39 @@ void Streamer::rank(std::span<const NodeKey> view) {
   }
   nextWanted_ = 0;
   toJoin_.clear();
-  countMissing();
+  missing_ = surveyed_ = 0;
+  while (surveyed_ < groundCount_) surveyRank(surveyed_++);
+}
+
+void Streamer::surveyRank(std::size_t rank) {
+  const NodeKey& key = wanted_[rank];
+  if (isThere(key)) return;
+  ++missing_;
+  if (nodes_.heights(key) && !joining_.contains(key)) toJoin_.insert(rank);
+}
+
+/// What of a uniform view is missing and what may go: thousands of nodes to be looked at whenever the object
+/// comes to another one, which is work like any other. The longest of it, listing them, comes first: then it
+/// is far from the deadline.
+bool Streamer::surveySome() {
+  if (std::exchange(listsHeld_, false)) {
+    held_ = nodes_.nodes();
+    return true;
+  }
+  std::size_t unit = 0;
+  for (; unit < kUnits && surveyed_ < wanted_.size(); ++unit) surveyRank(surveyed_++);
+  if (unit > 0) return true;
+  for (; unit < kUnits && !held_.empty(); ++unit, held_.pop_back()) {
+    const NodeKey& key = held_.back();
+    if (isDrawable(key)) continue;
+    if (!ranks_.contains(key) || nodes_.isDrawn(key)) drops_.push_back(key);
+  }
+  return unit > 0;
 }
 
 void Streamer::countMissing() {
   missing_ = static_cast<std::size_t>(
       std::count_if(wanted_.begin(), wanted_.end(), [&](const NodeKey& key) { return !isThere(key); }));
-}
-
-void Streamer::planDrops() {
-  drops_.clear();
-  for (const NodeKey& key : nodes_.nodes()) {
-    if (isDrawable(key)) continue;
-    if (!ranks_.contains(key) || nodes_.isDrawn(key)) drops_.push_back(key);
-  }
 }
 
 bool Streamer::isWanted(const NodeKey& key) const {
@@ -417,7 +435,6 @@ void Streamer::beginLearning() {
 }
 
 void Streamer::learnSome() {
-  constexpr std::size_t kUnits = 64;
   for (std::size_t unit = 0; unit < kUnits && !toLearn_.empty(); ++unit, toLearn_.pop_back()) {
     if (nodes_.heights(toLearn_.back())) noteError(toLearn_.back());
   }
@@ -628,8 +645,8 @@ bool Streamer::tidyOne(const Slice& slice) {
     integrate(std::move(arrived_.front()));
     arrived_.pop_front();
   } else if (renewSome()) {
-  } else if (!(selection_ && chooseSome(slice)) && !maps_.dropOldest() && !startJoin() && !startBuild() &&
-             !startCalibration() && !renewIdly()) {
+  } else if (!(selection_ ? chooseSome(slice) : surveySome()) && !maps_.dropOldest() && !startJoin() &&
+             !startBuild() && !startCalibration() && !renewIdly()) {
     return false;
   }
   peakBytes_ = std::max(peakBytes_, bytes());
@@ -705,7 +722,10 @@ void Streamer::integrateJoin(const JoinTask& task) {
   const std::vector<NodeKey>& nodes = task.change().add;
   const auto isWanted = [&](const NodeKey& key) { return ranks_.contains(key) && isDrawable(key); };
   if (std::all_of(nodes.begin(), nodes.end(), isWanted) && nodes_.apply(task.change(), task.pieces())) {
-    missing_ -= nodes.size();
+    const auto isSurveyed = [&](const NodeKey& key) {
+      return static_cast<std::size_t>(ranks_.find(key)) < surveyed_;
+    };
+    missing_ -= static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), isSurveyed));
   } else {  // what they were to be joined with has changed: once more
     for (const NodeKey& key : nodes) {
       if (isWanted(key) && nodes_.heights(key)) toJoin_.insert(static_cast<std::size_t>(ranks_.find(key)));
@@ -761,10 +781,18 @@ bool Streamer::startJoin() {
   return true;
 }
 
+/// What is wanted but under way; true: there may be more of it.
+bool Streamer::passOver() {
+  for (std::size_t unit = 0; unit < kUnits; ++unit, ++nextWanted_) {
+    if (nextWanted_ == wanted_.size()) return false;
+    const NodeKey& key = wanted_[nextWanted_];
+    if (!nodes_.heights(key) && !builds_.contains(key)) return false;
+  }
+  return true;
+}
+
 /// Ground first, and all of a uniform view; then what a view by error wants.
 std::optional<Streamer::Wish> Streamer::nextWish() {
-  const auto isUnderWay = [&](const NodeKey& key) { return nodes_.heights(key) || builds_.contains(key); };
-  while (nextWanted_ < wanted_.size() && isUnderWay(wanted_[nextWanted_])) ++nextWanted_;
   if (nextWanted_ < wanted_.size()) {
     const auto rank = static_cast<std::int64_t>(nextWanted_);
     const bool ground = isGround(nextWanted_);
@@ -777,6 +805,7 @@ std::optional<Streamer::Wish> Streamer::nextWish() {
 }
 
 bool Streamer::startBuild() {
+  if (passOver()) return true;
   const std::optional<Wish> wish = nextWish();
   if (!wish) return false;
   if (wish->isGround ? groundBuilds_ >= mostGroundBuilds_ : builds_.size() - groundBuilds_ >= viewBuilds_) {
@@ -811,6 +840,7 @@ bool Streamer::isMeasuring() const {
 bool Streamer::isSettled() const {
   if (!drops_.empty() || !arrived_.empty() || join_ != 0 || !builds_.empty() || isRenewing()) return false;
   if (nodes_.hasToFree() || freeing_ != 0) return false;
+  if (!isSurveyed()) return false;
   if (selection_ && (!isChosen() || refinement_.hasUnwanted() || (refinement_.mayChange() && !lacksRoom_))) {
     return false;
   }

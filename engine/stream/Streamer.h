@@ -94,7 +94,9 @@ class Streamer {
   }
   /// A choice that is not done yet counts for one, which is missing, and so do edits that are not shown yet.
   std::size_t wanted() const noexcept { return wanted_.size() + refinement_.wanted() + underWay(); }
-  std::size_t missing() const noexcept { return missing_ + refinement_.missing() + underWay(); }
+  std::size_t missing() const noexcept {
+    return missing_ + (wanted_.size() - surveyed_) + refinement_.missing() + underWay();
+  }
   std::size_t unfinished() const { return runner_.unfinished(); }  ///< tasks
   std::size_t bytes() const;
   std::size_t peakBytes() const noexcept { return peakBytes_; }
@@ -134,7 +136,9 @@ class Streamer {
   void chooseUniform(const Position& eye);
   bool isGroundAsBefore() const;
   void rank(std::span<const NodeKey> view);
-  void planDrops();
+  void surveyRank(std::size_t rank);
+  bool surveySome();
+  bool isSurveyed() const noexcept { return surveyed_ == wanted_.size() && !listsHeld_ && held_.empty(); }
   void cancelUnwanted();
   void countMissing();
   bool isDrawable(const NodeKey& key) const;
@@ -186,6 +190,7 @@ class Streamer {
   bool startJoin();
   bool startRefining();
   void change(const DrawnChange& change, std::span<const BuiltPiece> pieces);
+  bool passOver();
   std::optional<Wish> nextWish();
   bool startBuild();
   bool startCalibration();
@@ -248,10 +253,13 @@ class Streamer {
   std::vector<std::vector<NodeKey>> groundLists_;
   std::vector<NodeKey> ground_;
   NodeTable groundSeen_;
-  std::size_t groundCount_ = 0;  // the first of wanted_: level-0 nodes under objects
-  std::vector<NodeKey> wanted_;  // most urgent first; of a view by error, ground only
-  NodeTable ranks_;              // in wanted_
-  std::size_t missing_ = 0;
+  std::size_t groundCount_ = 0;   // the first of wanted_: level-0 nodes under objects
+  std::vector<NodeKey> wanted_;   // most urgent first; of a view by error, ground only
+  NodeTable ranks_;               // in wanted_
+  std::size_t missing_ = 0;       // of the first `surveyed_`
+  std::size_t surveyed_ = 0;      // the others have not been looked at since all were ranked
+  bool listsHeld_ = false;        // then: all nodes held are to be listed ...
+  std::vector<NodeKey> held_;     // ... and looked at for what is to be dropped
   std::size_t nextWanted_ = 0;    // all before it are held or being made
   std::vector<NodeKey> drops_;    // to be freed, when there is time
   std::set<std::size_t> toJoin_;  // ranks of nodes held and to be drawn

@@ -60,10 +60,10 @@ void BaseMapTask::fail(const std::string& cause) {
 
 BaseMap BaseMapStore::find(const BaseMapKey& key) {
   const std::lock_guard lock(mutex_);
-  const auto found = index_.find(key);
-  if (found == index_.end()) return nullptr;
-  entries_.splice(entries_.begin(), entries_, found->second);
-  return found->second->map;
+  const std::list<Entry>::iterator* const found = index_.find(key);
+  if (found == nullptr) return nullptr;
+  entries_.splice(entries_.begin(), entries_, *found);
+  return (*found)->map;
 }
 
 void BaseMapStore::insert(const BaseMapKey& key, BaseMap map) {
@@ -71,7 +71,7 @@ void BaseMapStore::insert(const BaseMapKey& key, BaseMap map) {
   const std::lock_guard lock(mutex_);
   if (index_.contains(key)) return;  // made twice at once: both have the same bits
   entries_.push_front({key, std::move(map)});
-  index_.emplace(key, entries_.begin());
+  index_.insert(key, entries_.begin());
   bytes_ += cost(entries_.front().map);
   while (BaseMap oldest = takeOldest()) dropped.push_back(std::move(oldest));
 }

@@ -7,13 +7,13 @@
 #include <list>
 #include <memory>
 #include <mutex>
-#include <unordered_map>
 
 #include "teren/HeightMap.h"
 #include "teren/Slice.h"
 
 #include "world/Layer.h"
 #include "world/PluginWork.h"
+#include "world/SteadyMap.h"
 
 namespace teren {
 
@@ -85,7 +85,7 @@ class BaseMapStore {
   std::size_t capacity_;
   std::size_t bytes_ = 0;
   std::list<Entry> entries_;  // most recently used first
-  std::unordered_map<BaseMapKey, std::list<Entry>::iterator, BaseMapKeyHash> index_;
+  SteadyMap<BaseMapKey, std::list<Entry>::iterator, BaseMapKeyHash> index_;
 };
 
 }  // namespace teren

@@ -298,6 +298,28 @@ TEST_P(EngineWithWorkers, DoesNothingButMoveObjectsWithAZeroBudget) {
   EXPECT_EQ(flight.engine->scene()->serial(), 0U);
 }
 
+/// Who comes to another node may change what thousands of others are: to look at them is work like any other.
+TEST_P(EngineWithWorkers, LooksThroughAViewAgainWithinTheBudget) {
+  constexpr int kRadius = 12, kAcross = 2 * kRadius + 1;
+  Flight flight(GetParam(), {0, kRadius}, {0, 0, 0.5, 0.5});
+  flight.engine->settle();
+  const std::size_t nodes = flight.engine->figures().nodes;
+  EXPECT_EQ(flight.engine->figures().pending, 0U);
+  flight.puppet->moveTo({1, 0, 0.5, 0.5});
+  flight.engine->update(0.1, milliseconds(0));
+  EXPECT_GT(flight.engine->figures().pending, std::size_t{kAcross * (kAcross - 4)});  // all but ground
+  EXPECT_EQ(flight.engine->figures().nodes, nodes);
+  flight.engine->settle();
+  EXPECT_EQ(flight.engine->figures().pending, 0U);
+  EXPECT_GE(flight.engine->figures().nodes, std::size_t{kAcross * kAcross});
+  flight.puppet->moveTo({100, 0, 0.5, 0.5});  // what was begun to be looked at is of no account any more
+  flight.engine->update(0.1, microseconds(1));
+  flight.puppet->moveTo({1, 0, 0.5, 0.5});
+  flight.engine->settle();
+  EXPECT_EQ(flight.engine->figures().pending, 0U);
+  EXPECT_TRUE(flight.engine->drawnHeight({-kRadius + 1, 0, 0.5, 0.5}).has_value());
+}
+
 TEST_P(EngineWithWorkers, StopsSettlingWhenProgressSaysSo) {
   Flight flight(GetParam(), {0, 60});
   std::size_t calls = 0;
