@@ -3,7 +3,8 @@
 // time of the thread that flies, presses and takes, after the first second, and of pressing and taking alone;
 // how many updates after it was pressed a stamp is seen; and an empty loop of the same budget: what the
 // machine adds to all of them. What is taken from a virtual machine counts as its thread's processor time: a
-// single long update is of the engine's making only where the empty loops have none as long.
+// single long update is of the engine's making only where the empty loops have none as long. At last, a tool
+// that is dragged on the spot, a tenth of its size a press: how long all is shown after the last press.
 //
 //   bench-dig [DEFORMER [SIZE [DEPTH [SECONDS]]]]     crater, 6 m, 1.5 m and 20 s of each flight without
 #include <algorithm>
@@ -163,6 +164,32 @@ class Dig {
   std::int64_t missing_ = 0;
 };
 
+/// All presses are there at once, as they would come if the hand were faster than the tool.
+void drag(const Tool& tool) {
+  constexpr int kPresses = 120;
+  const std::shared_ptr<const World> world =
+      World::create(WorldDescription::standard(), *PluginRegistry::standard()).value();
+  const auto editor = GroundEditor::open(world, deformersOf(PluginRegistry::standard())).value();
+  const auto press = [&](int k) {
+    const double x = 2000.0 + 0.1 * tool.size * k;
+    (void)editor->press({tool.deformer, x, 2000.0, 0.0, tool.size, tool.depth, 1, 0, {}}).ok();
+  };
+  const auto wait = [&] {
+    while (editor->unfinished() > 0) {
+      (void)editor->take();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  };
+  press(0);
+  wait();
+  const Clock::time_point start = Clock::now();
+  for (int k = 1; k <= kPresses; ++k) press(k);
+  wait();
+  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  std::printf("%s dragged, %d presses %.1f m apart: shown after %.0f ms, %.1f ms a press\n",
+              tool.deformer.c_str(), kPresses, 0.1 * tool.size, ms, ms / kPresses);
+}
+
 void run(const Tool& tool, int seconds) {
   std::printf("updates with a budget of %lld us; times [us] of processor time\n",
               static_cast<long long>(kBudget.count()));
@@ -183,6 +210,7 @@ void run(const Tool& tool, int seconds) {
       }
     }
   }
+  drag(tool);
 }
 
 }  // namespace
