@@ -56,10 +56,10 @@ struct Live {
   bool isWritten = true;          // and it is how the surface is now
 };
 
-/// Patches over which no other surface lives any more.
+/// Patches over which only surfaces of one kind live any more, which are to become one; at rest.
 struct Room {
   PatchRectangle patches;
-  Live* growing = nullptr;  // over which this one is to grow; null: a new one begins
+  std::vector<Live*> living;
 };
 
 /// What a plugin's function answers; an exception of its is a sentence.
@@ -202,7 +202,9 @@ class EditedGround::State {
   Result<void> runToRest(Live& live, const EditWork& work) const;
   Result<void> write(Live& live);
   Result<Room> clear(const PlacedEdit& edit, const EditWork& work);
-  Result<bool> grow(Live& live, const PatchRectangle& patches, const HeightMap& ground) const;
+  Result<bool> extend(std::span<Live* const> living, const PatchRectangle& patches,
+                      const HeightMap& ground) const;
+  Result<Live*> joinedIn(const Room& room, const HeightMap& ground);
   Result<HeightMap> groundOf(const PatchRectangle& patches, const EditWork& work);
   Result<Live*> surfaceFor(const PlacedEdit& edit, const EditWork& work);
   DeformRegion regionOf(const PatchRectangle& patches) const noexcept;
@@ -330,44 +332,68 @@ Result<void> EditedGround::State::write(Live& live) {
   return {};
 }
 
-/// Ends the surfaces in the way of an edit but for the first one of its kind, which is to grow.
+/// Ends the surfaces in the way of an edit but for those of its kind.
 Result<Room> EditedGround::State::clear(const PlacedEdit& edit, const EditWork& work) {
-  Room room{edit.needed};
+  Room room{edit.needed, {}};
   for (;;) {
     const auto inTheWay = std::find_if(live_.begin(), live_.end(), [&](const Live& live) {
-      return &live != room.growing && live.patches.overlaps(room.patches);
+      return std::find(room.living.begin(), room.living.end(), &live) == room.living.end() &&
+             live.patches.overlaps(room.patches);
     });
     if (inTheWay == live_.end()) return room;
     if (Result<void> done = runToRest(*inTheWay, work); !done) return done.error();
     if (Result<void> written = write(*inTheWay); !written) return written.error();
     const PatchRectangle larger = room.patches.joinedWith(inTheWay->patches);
-    const bool joins =
-        inTheWay->kind == edit.kind && larger.samples(world_.intervals()) <= kMostJoinedSamples;
-    if (joins) room.patches = larger;
-    if (joins && room.growing == nullptr) {
-      room.growing = &*inTheWay;
+    if (inTheWay->kind == edit.kind && larger.samples(world_.intervals()) <= kMostJoinedSamples) {
+      room.patches = larger;
+      room.living.push_back(&*inTheWay);
     } else {
       live_.erase(inTheWay);
     }
   }
 }
 
-/// False: the surface refuses. It is at rest, and `ground` is the ground of the patches with its samples.
-Result<bool> EditedGround::State::grow(Live& live, const PatchRectangle& patches,
-                                       const HeightMap& ground) const {
+/// The first surface grows over the patches and takes the others in; false: it refuses. `ground` is theirs
+/// with all samples that surfaces have left.
+Result<bool> EditedGround::State::extend(std::span<Live* const> living, const PatchRectangle& patches,
+                                         const HeightMap& ground) const {
   const DeformRegion region = regionOf(patches);
-  const SampleRectangle place = region.placeOf(regionOf(live.patches));
   HeightMap before(ground);
-  copyHeights(live.ground.view(), before.view().part(place.column, place.row, place.columns, place.rows));
+  SampleRectangle written;
+  std::vector<LiveSurface*> others;
+  for (const Live* live : living) {
+    const SampleRectangle place = region.placeOf(regionOf(live->patches));
+    copyHeights(live->ground.view(), before.view().part(place.column, place.row, place.columns, place.rows));
+    const SampleRectangle& own = live->written;
+    written = joined(written, {own.column + place.column, own.row + place.row, own.columns, own.rows});
+    if (live != living.front()) others.push_back(live->surface.get());
+  }
+  Live& first = *living.front();
   const ConstHeightView heights = before.view();
-  const auto grown = guarded(live.kind, [&] { return live.surface->grow(region, heights); });
-  if (!grown) return grown.error();
-  if (!*grown) return false;
-  live.patches = patches;
-  live.ground = std::move(before);
-  live.written.column += place.column;
-  live.written.row += place.row;
+  const auto extended = guarded(first.kind, [&] {
+    return others.empty() ? first.surface->grow(region, heights)
+                          : first.surface->merge(region, heights, others);
+  });
+  if (!extended) return extended.error();
+  if (!*extended) return false;
+  first.patches = patches;
+  first.ground = std::move(before);
+  first.written = written;
   return true;
+}
+
+/// The surface that has the room from now on, if one of those there takes it; all others end.
+Result<Live*> EditedGround::State::joinedIn(const Room& room, const HeightMap& ground) {
+  Live* one = nullptr;
+  for (std::size_t count = room.living.size(); count > 0 && one == nullptr; count = count > 1 ? 1 : 0) {
+    const Result<bool> extended = extend(std::span(room.living).first(count), room.patches, ground);
+    if (!extended) return extended.error();
+    if (*extended) one = room.living.front();
+  }
+  live_.remove_if([&](const Live& live) {
+    return &live != one && std::find(room.living.begin(), room.living.end(), &live) != room.living.end();
+  });
+  return one;
 }
 
 Result<HeightMap> EditedGround::State::groundOf(const PatchRectangle& patches, const EditWork& work) {
@@ -401,12 +427,9 @@ Result<Live*> EditedGround::State::surfaceFor(const PlacedEdit& edit, const Edit
   if (!room) return room.error();
   Result<HeightMap> ground = groundOf(room->patches, work);
   if (!ground) return ground.error();
-  if (room->growing != nullptr) {
-    const Result<bool> grown = grow(*room->growing, room->patches, *ground);
-    if (!grown) return grown.error();
-    if (*grown) return room->growing;
-    live_.remove_if([&](const Live& live) { return &live == room->growing; });
-  }
+  const Result<Live*> joined = joinedIn(*room, *ground);
+  if (!joined) return joined.error();
+  if (*joined != nullptr) return *joined;
   Live live{edit.kind, edit.deformer, room->patches, *std::move(ground), nullptr};
   const ConstHeightView heights = live.ground.view();
   auto begun = guarded(edit.kind, [&] { return edit.deformer->begin(regionOf(room->patches), heights); });

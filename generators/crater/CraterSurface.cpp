@@ -90,6 +90,17 @@ Result<void> CraterSurface::grow(const DeformRegion& region, ConstHeightView gro
   return {};
 }
 
+Result<void> CraterSurface::merge(const DeformRegion& region, ConstHeightView ground,
+                                  std::span<LiveSurface* const> others) {
+  Result<void> grown = grow(region, ground);
+  if (!grown) return grown;
+  for (const LiveSurface* other : others) {
+    assert(other->atRest());
+    grid_.take(static_cast<const CraterSurface&>(*other).grid_);
+  }
+  return {};
+}
+
 std::size_t CraterSurface::bytes() const noexcept {
   std::size_t sum = sizeof(*this) - sizeof(grid_) + grid_.bytes();
   for (const Smoothing& smoothing : smoothings_) sum += smoothing.bytes();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "teren/DeformGrid.h"
@@ -44,6 +45,8 @@ class CraterSurface final : public LiveSurface {
   std::shared_ptr<const DeformedGround> snapshot() override { return grid_.snapshot(); }
   std::size_t bytes() const noexcept override;
   Result<void> grow(const DeformRegion& region, ConstHeightView ground) override;
+  Result<void> merge(const DeformRegion& region, ConstHeightView ground,
+                     std::span<LiveSurface* const> others) override;
 
  private:
   void dig(const Stamp& stamp, const CraterTool& tool);

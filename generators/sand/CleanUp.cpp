@@ -87,6 +87,15 @@ void CleanUp::addMoved(VertexId v) {
   add(v);
 }
 
+void CleanUp::take(const CleanUp& other, std::span<const VertexId> taken) {
+  for (VertexId v = 0; v < taken.size(); ++v) {
+    if (taken[v] != kNoVertex) carry(taken[v], other.carried(v));
+  }
+  for (const VertexId v : other.queue_) {
+    if (v < taken.size() && taken[v] != kNoVertex) add(taken[v]);
+  }
+}
+
 void CleanUp::run(SandSurface& surface, Slides& slides, std::uint32_t kept, std::size_t most) {
   const std::size_t looked = std::min(most, queue_.size());
   for (const VertexId v : std::span(queue_.data(), looked)) {

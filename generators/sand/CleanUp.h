@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "generators/sand/FrontQueue.h"
@@ -51,6 +52,8 @@ class CleanUp {
   }
   /// A vertex that has moved by itself, or come: it carries no error.
   void addMoved(VertexId v);
+  /// What waits in another one, and the errors that its vertices carry; these are `taken` by now.
+  void take(const CleanUp& other, std::span<const VertexId> taken);
   std::size_t waiting() const noexcept { return queue_.size(); }
   /// Looks at the vertices that wait, at most so many. Constraints with an id of at least `kept` stay. Faces
   /// that changed are added to the slides.

@@ -23,6 +23,8 @@ class OpenCells {
   bool hasFence() const noexcept { return columns_ > 0; }
   int shift() const noexcept { return shift_; }
   LatticePoint corner() const noexcept { return corner_; }
+  int columns() const noexcept { return columns_; }
+  int rows() const noexcept { return rows_; }
   std::int32_t width() const noexcept { return columns_ << shift_; }  ///< [steps]
   std::int32_t height() const noexcept { return rows_ << shift_; }    ///< [steps]
   /// The south-west corner of a square.

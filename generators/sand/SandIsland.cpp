@@ -220,17 +220,36 @@ Result<void> SandIsland::grow(const DeformRegion& region, ConstHeightView ground
   return {};
 }
 
+Result<void> SandIsland::merge(const DeformRegion& region, ConstHeightView ground,
+                               std::span<LiveSurface* const> others) {
+  std::size_t vertices = surface().mesh().vertexCount();
+  for (LiveSurface* other : others) {
+    vertices += static_cast<SandIsland&>(*other).surface().mesh().vertexCount();
+  }
+  if (Result<void> room = SandSurface::hasRoom(vertices); !room) return room;
+  if (Result<void> grown = grow(region, ground); !grown) return grown;
+  for (LiveSurface* other : others) take(static_cast<SandIsland&>(*other));
+  return {};
+}
+
+/// Samples come as they were, whatever rounding says of the same triangles now.
+void SandIsland::take(SandIsland& other) {
+  assert(other.atRest());
+  (void)other.snapshot();
+  grid_.take(other.grid_);
+  const SampleRectangle place = grid_.region().placeOf(other.grid_.region());
+  sandbox_.take(other.sandbox_, place.column, place.row);
+  slidesUntil_ = sandbox_.slides().count().steps + std::min(looksLeft() + other.looksLeft(), kMostLooks);
+  poured_ += other.poured_;
+}
+
 /// Takes the TIN's heights at the samples within a triangle.
 void SandIsland::sample(TriangleId t) {
+  if (!surface().isOpen(t)) return;
   const Triangulation& mesh = surface().mesh();
+  const OpenCells& cells = surface().cells();
   const std::array<VertexId, 3>& corners = mesh.corners(t);
   const LatticePoint a = mesh.point(corners[0]), b = mesh.point(corners[1]), c = mesh.point(corners[2]);
-  const OpenCells& cells = surface().cells();
-  const auto middle = [](std::int32_t one, std::int32_t two, std::int32_t three) {
-    return static_cast<std::int32_t>((std::int64_t{one} + two + three) / 3);
-  };
-  // No triangle lies on both sides of the fence.
-  if (!cells.isOpen(cells.columnOf(middle(a.x, b.x, c.x)), cells.rowOf(middle(a.y, b.y, c.y)))) return;
   const auto [west, east] = std::minmax({a.x, b.x, c.x});
   const auto [south, north] = std::minmax({a.y, b.y, c.y});
   constexpr std::int32_t kUp = kStepsASpacing - 1;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "teren/DeformGrid.h"
 #include "teren/HeightMap.h"
@@ -34,7 +35,8 @@ struct SandPress {
 ///
 /// The fence around those squares keeps all others, and so the rim and the collar, as they are, bit for bit:
 /// sand that comes there lies against it as against a wall, and keeps its volume. Later stamps move the fence
-/// outwards. Where sand spreads, patches are nothing.
+/// outwards. Where sand spreads, patches are nothing, nor is it to be seen that an island has grown; one that
+/// took others in goes on with their triangles, volumes, debts and waiting vertices (Merging.h).
 ///
 /// Steps: one takes kStepFaces faces to slide and then looks at kStepVertices vertices for the clean-up, or
 /// as many as wait. Sand comes to rest by itself, but among needles of rock that takes for ever; so a stamp
@@ -81,6 +83,9 @@ class SandIsland final : public LiveSurface {
   std::size_t bytes() const noexcept override;
   /// Refuses a region beyond its lattice, and what begin() refuses.
   Result<void> grow(const DeformRegion& region, ConstHeightView ground) override;
+  /// Takes others in with all that is loose, owed and still to be cleaned up; their steps are forgotten.
+  Result<void> merge(const DeformRegion& region, ConstHeightView ground,
+                     std::span<LiveSurface* const> others) override;
 
   const SandSurface& surface() const noexcept { return sandbox_.surface(); }
   /// So many faces are looked at until sand lies as it lies.
@@ -93,6 +98,7 @@ class SandIsland final : public LiveSurface {
 
   void work();
   void sample(TriangleId t);
+  void take(SandIsland& other);
 
   HeightMap ground_;
   DeformGrid grid_;

@@ -90,6 +90,15 @@ Face SandSurface::unweighedFace(TriangleId t) const noexcept {
   return face;
 }
 
+bool SandSurface::isOpen(TriangleId t) const noexcept {
+  const std::array<VertexId, 3>& corners = mesh_.corners(t);
+  const LatticePoint a = mesh_.point(corners[0]), b = mesh_.point(corners[1]), c = mesh_.point(corners[2]);
+  const auto middle = [](std::int32_t one, std::int32_t two, std::int32_t three) {
+    return static_cast<std::int32_t>((std::int64_t{one} + two + three) / 3);
+  };
+  return cells_.isOpen(cells_.columnOf(middle(a.x, b.x, c.x)), cells_.rowOf(middle(a.y, b.y, c.y)));
+}
+
 std::int64_t SandSurface::heightAt(LatticePoint p, TriangleId hint) const noexcept {
   return ticksFromMetres(mesh_.heightAt(p, hint));
 }
@@ -195,12 +204,12 @@ VertexId SandSurface::insert(LatticePoint p, TriangleId hint) {
   return v;
 }
 
-VertexId SandSurface::enter(LatticePoint p, std::int64_t ticks, TriangleId hint) {
+VertexId SandSurface::enter(LatticePoint p, std::int64_t ticks, TriangleId hint, std::int64_t loose) {
   const Location place = mesh_.locate(p, hint);
   if (place.kind == Location::Kind::vertex) return mesh_.corners(place.triangle)[place.corner];
   begin();
   const VertexId v = mesh_.insert(p, metresFromTicks(ticks), place.triangle).vertex;
-  adopt(v, ticks, 0);
+  adopt(v, ticks, loose);
   changedVertices_.add(v);
   entered_ += finish({});
   return v;
@@ -210,6 +219,13 @@ void SandSurface::enterEdge(VertexId a, VertexId b, std::uint32_t id) {
   begin();
   mesh_.constrain(a, b, id);
   entered_ += finish({});
+}
+
+void SandSurface::takeAccount(const SandSurface& other) {
+  ledger_.enterDue(-other.due());
+  ledger_.enter(other.due() - other.owed());
+  entered_ += other.owed();
+  moved_ += other.moved_;
 }
 
 LatticePoint SandSurface::middle(VertexId a, VertexId b) const noexcept {

@@ -54,6 +54,8 @@ class SandSurface {
   void open(int column, int row) { cells_.open(column, row); }
   /// OpenCells::grown. The corner of the squares has the place (0, 0) m, before and from then on.
   void grow(int west, int south, int columns, int rows);
+  /// Whether a triangle lies in open squares: none lies on both sides of the fence.
+  bool isOpen(TriangleId t) const noexcept;
   bool isFixed(VertexId v) const noexcept { return cells_.isFixed(mesh_.point(v)); }
   double step() const noexcept { return mesh_.frame().step; }  // [m]
   std::int64_t height(VertexId v) const noexcept { return ticksOf(mesh_.height(v)); }
@@ -82,10 +84,12 @@ class SandSurface {
 
   /// Adds a vertex on the surface, or finds the one that is there.
   VertexId insert(LatticePoint p, TriangleId hint = kNoTriangle);
-  /// Ground enters: a solid vertex at a height of its own, or the one that is there; and an edge of it as
-  /// Triangulation::constrain. What that does to the volume is entered().
-  VertexId enter(LatticePoint p, std::int64_t ticks, TriangleId hint = kNoTriangle);
+  /// Ground enters: a vertex at a height of its own, solid but for `loose` ticks, or the one that is there;
+  /// and an edge of it as Triangulation::constrain. What that does to the volume is entered().
+  VertexId enter(LatticePoint p, std::int64_t ticks, TriangleId hint = kNoTriangle, std::int64_t loose = 0);
   void enterEdge(VertexId a, VertexId b, std::uint32_t id);
+  /// The ground of another surface has entered, and with it all that this one owes.
+  void takeAccount(const SandSurface& other);
   /// Triangulation::turn.
   void turn(TriangleId t, VertexId first) noexcept { mesh_.turn(t, first); }
   /// Half way between two vertices, rounded down to a step.

@@ -1,7 +1,11 @@
 #include "generators/sand/Sandbox.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
+#include <vector>
+
+#include "generators/sand/Merging.h"
 
 namespace teren {
 
@@ -71,6 +75,15 @@ void Sandbox::open(ConstHeightView ground, double x, double y, double distance) 
   for (const VertexId v : opening_.inside()) cleanUp_.add(v);
   opening_.join(surface_);
   collectChanges(Phase::stamping);
+}
+
+void Sandbox::take(const Sandbox& other, int column, int row) {
+  assert(isDone() && other.isDone());
+  const std::vector<VertexId> taken = mergeSand(surface_, other.surface_, column, row, stamper_.nextId() - 1);
+  surface_.clearChanges();
+  cleanUp_.take(other.cleanUp_, taken);
+  stamper_.take(other.stamper_, taken);
+  removable_ = 0;
 }
 
 void Sandbox::pour(double x, double y, double radius, double height) {

@@ -56,6 +56,9 @@ class Sandbox {
   void open(ConstHeightView ground, double x, double y, double distance);
   /// SandSurface::grow: nobody sees anything change.
   void grow(int west, int south, int columns, int rows) { surface_.grow(west, south, columns, rows); }
+  /// Takes the sand of another box, at rest as this one is, into squares from (column, row) on; Merging.h.
+  /// What waits to be cleaned up there waits here, for the next push. Nobody sees anything change.
+  void take(const Sandbox& other, int column, int row);
   /// Pours loose sand on: a mound, paraboloid of revolution, on what lies there. All in metres, finite, the
   /// radius at least 32 steps and its disc in the box. What slides, slides later.
   void pour(double x, double y, double radius, double height);

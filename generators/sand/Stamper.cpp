@@ -129,6 +129,15 @@ Result<StampReport> Stamper::stamp(SandSurface& surface, const ToolShape& tool, 
   return report;
 }
 
+void Stamper::take(const Stamper& other, std::span<const VertexId> taken) {
+  nextId_ += other.nextId_ - 1;
+  const auto add = [taken](ChangeList& list, VertexId v) {
+    if (v < taken.size() && taken[v] != kNoVertex) list.add(taken[v]);
+  };
+  for (const VertexId v : other.allRims_.ids()) add(allRims_, v);
+  for (const VertexId v : other.allInside_.ids()) add(allInside_, v);
+}
+
 /// The processor time since the last charge belongs to this part.
 void Stamper::charge(double& part) noexcept {
   const std::chrono::nanoseconds now = threadProcessorTime();

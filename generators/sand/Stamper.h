@@ -70,6 +70,9 @@ class Stamper {
   /// across, than 8 lattice steps, or the surface has no room for more vertices.
   Result<StampReport> stamp(SandSurface& surface, const ToolShape& tool, const StampPlace& place);
 
+  /// Another one's last stamp has left its outlines here, too, on vertices that are `taken` by now; its
+  /// constraints have ids from nextId() on.
+  void take(const Stamper& other, std::span<const VertexId> taken);
   /// The constraints of the next stamp will have this id or higher ones.
   std::uint32_t nextId() const noexcept { return nextId_; }
   /// The vertices on the last stamp's outer outlines, and those left within.

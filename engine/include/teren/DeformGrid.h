@@ -77,6 +77,16 @@ class DeformGrid {
     *this = std::move(larger);
   }
 
+  /// LiveSurface::merge, of a grid that has grown: takes what another one has changed.
+  void take(const DeformGrid& other) {
+    const SampleRectangle place = region_.placeOf(other.region_), part = other.changed();
+    for (int y = part.row; y < part.row + part.rows; ++y) {
+      for (int x = part.column; x < part.column + part.columns; ++x) {
+        set(place.column + x, place.row + y, other(x, y));
+      }
+    }
+  }
+
   /// What `set` was ever called for.
   SampleRectangle changed() const noexcept {
     if (east_ <= west_) return {};

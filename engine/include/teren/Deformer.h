@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -137,6 +138,17 @@ class LiveSurface {
   virtual Result<void> grow(const DeformRegion& region, ConstHeightView ground) {
     (void)region, (void)ground;
     return Error{"this surface does not grow"};
+  }
+
+  /// The same, and it takes what others have: surfaces of the same deformer, at rest, whose regions are parts
+  /// of `region` that lie apart from its own and from each other (assert). `ground` is where each of them lay
+  /// the one that it began with. Samples stay, those of the others too, which are good for nothing from then
+  /// on. Where this refuses, with one sentence, nothing has changed, and the others end; so a surface that
+  /// does not merge needs nothing of it, either.
+  virtual Result<void> merge(const DeformRegion& region, ConstHeightView ground,
+                             std::span<LiveSurface* const> others) {
+    (void)region, (void)ground, (void)others;
+    return Error{"this surface does not merge"};
   }
 };
 

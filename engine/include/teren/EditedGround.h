@@ -52,9 +52,9 @@ struct EditWork {
 /// * If a live surface of its kind has all those patches, it is applied there. Otherwise room is made over
 ///   the patches needed: while a live surface is in the way there, the one that began first runs to rest and
 ///   its samples become the ground's; one of the edit's kind makes the room the bounding rectangle of both,
-///   unless that had more than kMostJoinedSamples. The first that did so grows over the room
-///   (LiveSurface::grow), so that loose material stays loose; all others end. Where there is none, or it
-///   refuses and ends, too, a new one begins there.
+///   unless that had more than kMostJoinedSamples. All others end; those that made it larger become one that
+///   has the room (LiveSurface::merge, or grow of one), so that loose material stays loose. Where they refuse
+///   to, the first grows alone and the others end; where it refuses, too, or there is none, a new one begins.
 /// * After each kMostEditsTogether edits everything comes to rest and ends, before anything else is done: so
 ///   the ground then is its samples alone, which is what replay() begins with.
 /// * At level L, samples that coincide with level-0 samples that were changed are these (grids only sample).

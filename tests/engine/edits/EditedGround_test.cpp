@@ -334,7 +334,38 @@ TEST(EditedGround, GrowsOverWhatOtherKindsHaveLeft) {
       bySurface(*testDeformer("bowl"), kAround, groundOf(kAround, other.get()), {edits[0], edits[2]})));
 }
 
-TEST(EditedGround, GrowsTheFirstOfItsKindInTheWayAndEndsTheOthers) {
+TEST(EditedGround, MakesOneOfAllSurfacesOfItsKindInTheWay) {
+  constexpr DeformRegion kWest{-1, -1, 3, 3, 16, 4.0}, kEast{4, -1, 3, 3, 16, 4.0},
+      kBoth{-1, -2, 8, 5, 16, 4.0};
+  const DeformerSource source = deformersOf(PluginRegistry::standard());
+  const DeformerKind sand = *source("sand");
+  std::vector<Edit> edits = {{"sand", 30.0, 30.0, 0.0, 12.0, -8.0, 3, 0, {}},
+                             {"sand", 350.0, 30.0, 0.0, 12.0, -8.0, 4, 0, {}},
+                             {"sand", 190.5, 30.0, 0.0, 40.0, 4.0, 5, 0, {}}};
+  EditedGround ground(testWorld(), source);
+  for (Edit& edit : edits) {
+    edit.steps = ground.stepsSinceEdit();
+    ASSERT_TRUE(ground.apply(edit));
+    ASSERT_TRUE(ground.rest());
+  }
+  const auto press = [&](LiveSurface& surface, const DeformRegion& region, const Edit& edit) {
+    const Result<void> pressed = surface.apply(stampIn(region, edit, sand.parameters));
+    EXPECT_TRUE(pressed) << (pressed ? "" : pressed.error().message);
+    EXPECT_TRUE(surface.step(Slice::unlimited(), kMostEditSteps));
+  };
+  const auto west = sand.deformer->begin(kWest, groundOf(kWest, nullptr).view()).value();
+  const auto east = sand.deformer->begin(kEast, groundOf(kEast, nullptr).view()).value();
+  press(*west, kWest, edits[0]);
+  press(*east, kEast, edits[1]);
+  LiveSurface* const others[] = {east.get()};
+  ASSERT_TRUE(west->merge(kBoth, groundOf(kBoth, nullptr).view(), others));
+  press(*west, kBoth, edits[2]);
+  HeightMap heights(kBoth.sampleColumns(), kBoth.sampleRows());
+  west->snapshot()->samples({0, 0, heights.columns(), heights.rows()}, heights.view());
+  EXPECT_TRUE(sameBits(groundOf(kBoth, &ground), heights));
+}
+
+TEST(EditedGround, GrowsTheFirstWhereSurfacesDoNotMerge) {
   BowlCounts counts;
   EditedGround ground(testWorld(), countedBowls(counts));
   const std::vector<Edit> edits = {bowl(20.0, 20.0), bowl(300.0, 20.0, 20.0, 9), bowl(160.0, 20.0, 150.0, 9),

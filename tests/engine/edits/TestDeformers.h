@@ -108,6 +108,18 @@ class BowlSurface final : public LiveSurface {
     region_ = region;
     return {};
   }
+  Result<void> merge(const DeformRegion& region, ConstHeightView ground,
+                     std::span<LiveSurface* const> others) override {
+    if (Result<void> grown = grow(region, ground); !grown) return grown;
+    for (const LiveSurface* one : others) {
+      const auto& other = static_cast<const BowlSurface&>(*one);
+      const SampleRectangle place = region.placeOf(other.region_);
+      copyHeights(other.heights_.view(),
+                  heights_.view().part(place.column, place.row, place.columns, place.rows));
+      touched_ = {0, 0, heights_.columns(), heights_.rows()};
+    }
+    return {};
+  }
 
  private:
   struct Bowl {

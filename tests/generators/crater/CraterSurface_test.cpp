@@ -139,6 +139,24 @@ TEST(CraterSurface, GoesOnAfterGrowingAsIfItHadBegunSo) {
   EXPECT_EQ(changed.rows, same.rows);
 }
 
+TEST(CraterSurface, TakesTheSamplesOfAnotherOneIn) {
+  constexpr DeformRegion kBoth{.i = -3, .j = -1, .columns = 6, .rows = 3, .intervals = 32, .spacing = 2.0};
+  constexpr DeformRegion kOther{.i = -3, .j = -1, .columns = 3, .rows = 2, .intervals = 32, .spacing = 2.0};
+  const HeightMap ground = hills();
+  HeightMap level(kBoth.sampleColumns(), kBoth.sampleRows());
+  CraterSurface surface(kRegion, ground.view()), other(kOther, ground.view());
+  ASSERT_TRUE(surface.apply(stamp("crater", 90.0, 64.0, 12.0, 4.0)).ok());
+  ASSERT_TRUE(other.apply(stamp("crater", 80.0, 60.0, 9.0, 5.0)).ok());
+  const HeightMap here = heights(surface), there = heights(other);
+  LiveSurface* const others[] = {&other};
+  ASSERT_TRUE(surface.merge(kBoth, level.view(), others).ok());
+  HeightMap all(level.columns(), level.rows());
+  surface.snapshot()->samples({0, 0, all.columns(), all.rows()}, all.view());
+  EXPECT_EQ(all(96 + 45, 32 + 32), here(45, 32));
+  EXPECT_EQ(all(40, 30), there(40, 30));
+  EXPECT_EQ(all(40, 90), 0.0F);
+}
+
 TEST(CraterSurface, PutsAStampAfterTheStepThatHasBegun) {
   const auto after = [](bool within) {
     CraterSurface surface(kRegion, hills().view());

@@ -1,5 +1,7 @@
 #include "generators/sand/SandIsland.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -84,6 +86,14 @@ class Island {
     ASSERT_TRUE(grown.ok()) << grown.error().message;
     region_ = region;
   }
+
+  void merge(Island& other, const HeightMap& ground, const DeformRegion& region) {
+    LiveSurface* const others[] = {other.live_.get()};
+    const Result<void> merged = live_->merge(region, ground.view(), others);
+    ASSERT_TRUE(merged.ok()) << merged.error().message;
+    region_ = region;
+  }
+  const DeformRegion& region() const { return region_; }
 
   HeightMap heights() {
     HeightMap map(region_.sampleColumns(), region_.sampleRows());
@@ -263,6 +273,40 @@ HeightMap wavesIn(const DeformRegion& region) {
   return groundOf(region, [&](int x, int y) { return waves(x + x0 + 64, y + y0 + 64); });
 }
 
+using Corner = std::array<std::int64_t, 4>;  // x, y, height, loose
+
+/// All triangles that are open, in places from the corner of kLarge.
+std::vector<std::array<Corner, 3>> openTriangles(Island& island) {
+  const SandSurface& surface = island.surface();
+  const SampleRectangle place = kLarge.placeOf(island.region());
+  const LatticePoint corner = surface.cells().point(-place.column, -place.row);
+  std::vector<std::array<Corner, 3>> triangles;
+  for (TriangleId t = 0; t < surface.mesh().triangleSlots(); ++t) {
+    if (!surface.mesh().isTriangle(t) || !surface.isOpen(t)) continue;
+    std::array<Corner, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const VertexId v = surface.mesh().corners(t)[i];
+      const LatticePoint p = surface.mesh().point(v);
+      corners[i] = {p.x - corner.x, p.y - corner.y, surface.height(v), surface.loose(v)};
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    triangles.push_back(corners);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+/// Sixfold, of what is loose in open squares [ticks steps^2].
+SixfoldVolume looseVolume(Island& island) {
+  SixfoldVolume sum = 0;
+  for (const auto& [a, b, c] : openTriangles(island)) {
+    const WideInteger area = static_cast<WideInteger>(b[0] - a[0]) * (c[1] - a[1]) -
+                             static_cast<WideInteger>(b[1] - a[1]) * (c[0] - a[0]);
+    sum += area * (a[3] + b[3] + c[3]);
+  }
+  return sum;
+}
+
 /// Stamps of all tools near a place, and after each some steps: none, few, or all there are.
 void play(Island& island, double east, double north, std::uint64_t seed) {
   RandomSequence random(seed);
@@ -307,6 +351,25 @@ TEST(SandIsland, GoesOnAfterGrowingAsIfItHadBegunSo) {
   expectSound(grown, ground);
 }
 
+TEST(SandIsland, TakesGroundInWhileSandSlidesWhereverItsLatticeLies) {
+  const auto after = [](int more) {
+    const DeformRegion region{.columns = 8 + more, .rows = 8 + more, .intervals = 8, .spacing = 2.0};
+    RandomSequence random(64);
+    HeightMap ground = flat(region);
+    for (int y = 0; y < 65; ++y) {
+      for (int x = 0; x < 65; ++x) ground(x, y) = static_cast<float>(0.5 * uniformAroundZero(random.next()));
+    }
+    Island island(ground, region);
+    for (double north = 36.0; north <= 92.0; north += 10.0) {
+      for (double east = 36.0; east <= 92.0; east += 10.0) island.press(stamp(east, north, 4.0, 1.0));
+    }
+    island.rest();
+    return island.heights();
+  };
+  const HeightMap one = after(0), other = after(5);
+  EXPECT_TRUE(test::sameBits(one.view(), other.view().part(0, 0, 65, 65)));
+}
+
 TEST(SandIsland, KeepsItsLooseSandLooseWhenItGrows) {
   const HeightMap ground = flat(kLarge);
   const auto heap = [](bool grows) {
@@ -347,6 +410,82 @@ TEST(SandIsland, GrowsAgainAndAgainToAllSides) {
     island.rest();
     expectSound(island, ground);
   }
+}
+
+constexpr DeformRegion kBeside{.i = -2, .j = -1, .columns = 2, .rows = 6, .intervals = 32, .spacing = 2.0};
+
+TEST(SandIsland, TakesAnotherOneInTriangleByTriangle) {
+  const HeightMap ground = wavesIn(kLarge);
+  Island island(wavesIn(kRegion)), other(wavesIn(kBeside), kBeside);
+  play(island, 120.0, 90.0, 5);
+  play(other, 64.0, 190.0, 8);
+  auto triangles = openTriangles(island);
+  const auto others = openTriangles(other);
+  triangles.insert(triangles.end(), others.begin(), others.end());
+  std::sort(triangles.begin(), triangles.end());
+  const SixfoldVolume account = island.account(), loose = looseVolume(island) + looseVolume(other);
+  const SixfoldVolume owed = island.surface().owed() + other.surface().owed();
+  const std::size_t constraints =
+      island.surface().mesh().constraintCount() + other.surface().mesh().constraintCount();
+  const double poured = island->poured() + other->poured();
+  const std::uint64_t steps = island->steps();
+  const HeightMap here = island.heights(), there = other.heights();
+  EXPECT_TRUE(loose > 0);
+
+  island.merge(other, ground, kLarge);
+  EXPECT_EQ(openTriangles(island), triangles);
+  EXPECT_TRUE(looseVolume(island) == loose);
+  EXPECT_TRUE(island.surface().owed() == owed);
+  EXPECT_TRUE(island.account() == account);
+  EXPECT_EQ(island.surface().mesh().constraintCount(), constraints);
+  EXPECT_EQ(island->poured(), poured);
+  EXPECT_EQ(island->steps(), steps);
+  EXPECT_TRUE(island->atRest());
+  expectSound(island, ground);
+  const HeightMap all = island.heights();
+  EXPECT_TRUE(test::sameBits(all.view().part(64, 32, here.columns(), here.rows()), here.view()));
+  EXPECT_TRUE(test::sameBits(all.view().part(0, 0, there.columns(), there.rows()), there.view()));
+
+  // On the border between the two, and over what the other one had.
+  for (const double east : {128.0, 70.0}) play(island, east, 190.0, 9);
+  EXPECT_TRUE(island.account() == account);
+  EXPECT_FALSE(test::sameBits(island.heights().view(), all.view()));
+  expectSound(island, ground);
+}
+
+TEST(SandIsland, GoesOnAfterMergingWhereverItsLatticeLies) {
+  const auto after = [](DeformRegion region) {
+    Island island(wavesIn(region), region), other(wavesIn(kBeside), kBeside);
+    play(island, 120.0, 90.0, 5);
+    play(other, 64.0, 190.0, 8);
+    island.merge(other, wavesIn(kLarge), kLarge);
+    play(island, 128.0, 190.0, 9);
+    return island.heights();
+  };
+  DeformRegion larger = kRegion;
+  ++larger.columns;
+  larger.rows += 2;
+  EXPECT_TRUE(test::sameBits(after(kRegion).view(), after(larger).view()));
+}
+
+TEST(SandIsland, CleansUpAfterMergingWhatWaitedInTheOtherOne) {
+  // A tool's outlines stay until the next stamp, which may be another island's.
+  Island island(flat()), other(flat(kBeside), kBeside);
+  other.press(stamp(64.0, 190.0, 10.0, 5.0, {{"tool", std::string("square")}}));
+  other.rest();
+  const std::size_t constraints = other.surface().mesh().constraintCount();
+  Island alone(flat());
+  for (Island* one : {&island, &alone}) {
+    one->press(stamp(100.0, 96.0, 4.0, 1.0));
+    one->rest();
+  }
+  island.merge(other, flat(kLarge), kLarge);
+  island.press(stamp(100.0 + 128.0, 96.0 + 64.0, 6.0, 1.0));
+  island.rest();
+  alone.press(stamp(100.0, 96.0, 6.0, 1.0));
+  alone.rest();
+  EXPECT_LT(island.surface().mesh().constraintCount(),
+            alone.surface().mesh().constraintCount() + constraints - 4);
 }
 
 TEST(SandIsland, RefusesToGrowBeyondItsLatticeOrOntoGroundThatItCannotHold) {
