@@ -183,6 +183,10 @@ void GroundRenewal::plan() {
 }
 
 void GroundRenewal::planOne() {
+  if (isPutOff_) {
+    forgetSome();
+    return;
+  }
   if (!affected_.empty()) {
     pieceBytes_ += nodes_.planComing(affected_.back(), plans_);
     affected_.pop_back();
@@ -203,9 +207,21 @@ void GroundRenewal::planOne() {
 void GroundRenewal::putOff() {
   assert(isPlanned());
   stage_ = Stage::overlaying;
-  plans_.clear();
-  seen_.clear();
-  pieceBytes_ = 0;
+  isPutOff_ = true;
+}
+
+/// What was planned before it was put off.
+void GroundRenewal::forgetSome() {
+  constexpr int kPlans = 64;
+  for (int k = 0; k < kPlans && !plans_.empty(); ++k) plans_.pop_back();
+  if (!plans_.empty()) return;
+  eraseSome(seen_);
+  isPutOff_ = !seen_.empty();
+}
+
+void GroundRenewal::eraseSome(NodeSet& keys) {
+  constexpr int kKeys = 64;
+  for (int k = 0; k < kKeys && !keys.empty(); ++k) keys.erase(keys.begin());
 }
 
 void GroundRenewal::make() {
@@ -257,8 +273,7 @@ void GroundRenewal::settleOne() {
 
 void GroundRenewal::clearSome() {
   for (NodeSet* keys : {&found_, &seen_}) {
-    constexpr int kKeys = 64;
-    for (int k = 0; k < kKeys && !keys->empty(); ++k) keys->erase(keys->begin());
+    eraseSome(*keys);
     if (!keys->empty()) return;
   }
   renewed_.clear();

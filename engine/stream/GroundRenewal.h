@@ -96,6 +96,8 @@ class GroundRenewal {
   void findSome();
   void overlayOne();
   void planOne();
+  void forgetSome();
+  static void eraseSome(NodeSet& keys);
   void makeOne();
   void exchangeOne();
   void settleOne();
@@ -116,6 +118,7 @@ class GroundRenewal {
   NodeSet seen_;
   std::vector<NodeKey> affected_;
   std::vector<PiecePlan> plans_;
+  bool isPutOff_ = false;                    // those, and seen_, are of no account any more
   std::size_t pieces_ = 0, pieceBytes_ = 0;  // all that are planned
   std::size_t left_ = 0;                     // of them, not exchanged
   std::unique_ptr<JoinTask> task_;
