@@ -34,8 +34,8 @@ std::span<const Property* const> contract(PluginKind kind) {
       makeResidual(),    makeLevels(),       makeField(),  makeFieldError(), makeParameters(),
       makeMargins(),     makeCancellation(), makeMemory(), makeAllocation()};
   static const PropertyPointer ofDeformers[] = {
-      makeStamps(),  makeStepSlicing(), makeSurfaces(),  makeStepLength(), makeCollar(),
-      makeHeights(), makeChanged(),     makeSnapshots(), makeHostile(),    makeBytes()};
+      makeStamps(),  makeStepSlicing(), makeSurfaces(), makeStepLength(), makeCollar(), makeHeights(),
+      makeChanged(), makeSnapshots(),   makeHostile(),  makeBytes(),      makeGrowth()};
   static const std::vector<const Property*> mapContract = pointersTo(ofMaps);
   static const std::vector<const Property*> deformerContract = pointersTo(ofDeformers);
   return kind == PluginKind::deformer ? deformerContract : mapContract;

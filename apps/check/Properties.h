@@ -40,5 +40,6 @@ PropertyPointer makeSurfaces();
 PropertyPointer makeSnapshots();
 PropertyPointer makeBytes();
 PropertyPointer makeStepLength();
+PropertyPointer makeGrowth();
 
 }  // namespace teren::check

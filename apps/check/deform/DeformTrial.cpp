@@ -207,6 +207,16 @@ void WatchedSurface::advance(const Slice& slice, std::uint64_t upTo) {
   }
 }
 
+std::string WatchedSurface::grow(const DeformRegion& region, ConstHeightView ground) {
+  const Result<void> grown = watched([&] { return surface_->grow(region, ground); });
+  if (!grown) {
+    expectSentence(grown.error().message, past() + ": asked to grow");
+    return grown.error().message;
+  }
+  region_ = region;
+  return {};
+}
+
 std::uint64_t WatchedSurface::steps() const {
   return watched([&] { return surface_->steps(); });
 }

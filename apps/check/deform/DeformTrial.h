@@ -77,6 +77,9 @@ class WatchedSurface {
   /// step() in such slices until it says it is done; a counter-example where it never is.
   void advance(const Slice& slice, std::uint64_t upTo);
 
+  /// The sentence with which it refuses to grow; empty where it has.
+  std::string grow(const DeformRegion& region, ConstHeightView ground);
+
   std::uint64_t steps() const;
   bool atRest() const;
   std::size_t bytes() const;

@@ -90,6 +90,7 @@ std::vector<Breach> breaches() {
       {"deform-no-sentence", "hostile", {"but its east NaN", "refuses with \"\", which is not one sentence"}},
       {"deform-no-door", "hostile", {"but its east NaN: it is taken"}},
       {"deform-no-bytes", "bytes", {"bytes, but", "more are in use than before it began"}},
+      {"deform-no-growth", "growth", {"of one that has grown but", "of one that began so"}},
       {"deform-no-freeing", "bytes", {"after 320 surfaces that are gone"}},
   };
 }
