@@ -19,7 +19,7 @@ inline constexpr std::chrono::microseconds kLongestSlice(kSanitizerWord == 0 ? 2
 inline constexpr std::size_t kEnoughSlices = 400, kFewestSlices = 200;
 /// A machine that is busy with other things makes single slices long, also by the thread's own clock; a
 /// plugin that overruns does so every time.
-inline constexpr int kSliceAttempts = 8;
+inline constexpr int kSliceAttempts = 5;
 
 /// By nearest rank: the least that 99 % do not exceed.
 inline std::chrono::nanoseconds percentile99(std::vector<std::chrono::nanoseconds>& times) {

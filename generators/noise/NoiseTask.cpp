@@ -129,7 +129,9 @@ class NoiseTask final : public SlicedTask {
     if (octave_ < octaves_.size()) return beginOctave(octave_++);
     const int columns = row_.columns = std::min(tileColumns_, out_.columns() - west_);
     const int end = std::min(out_.rows(), south_ + tileRows_);
-    const int work = columns * (static_cast<int>(octaves_.size()) + 1);
+    // A row costs what its padding does, too: the last tile may be one column wide.
+    const int padded = (columns + kNoisePadding - 1) / kNoisePadding * kNoisePadding;
+    const int work = padded * (static_cast<int>(octaves_.size()) + 1);
     for (int rows = std::max(1, workPerUnit_ / work); rows > 0 && rowNumber_ < end; --rows) {
       for (std::size_t n = 0; n < octaves_.size(); ++n) beginRow(octaves_[n], rows_[n]);
       kernel_(row_);
