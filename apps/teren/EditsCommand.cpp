@@ -207,11 +207,21 @@ class EditsCommand final : public Command {
   void answer(const std::filesystem::path& file, std::size_t edits, const EditedGround& ground,
               const char* done, std::size_t count) const {
     const std::string hash = hashDigits(ground.hash());
+    const EndedSurfaces ended = ground.ended();
     if (json_->count() > 0) {
-      printJson({{"file", file.string()}, {done, count}, {"edits", edits}, {"hash", hash}});
-    } else {
-      std::cout << file.string() << ": " << count << " edits " << done << ", " << edits
-                << " in all, hash of the ground " << hash << '\n';
+      printJson(
+          {{"file", file.string()},
+           {done, count},
+           {"edits", edits},
+           {"hash", hash},
+           {"ended", {{"surfaces", ended.surfaces}, {"error", ended.error}, {"absolute", ended.absolute}}}});
+      return;
+    }
+    std::cout << file.string() << ": " << count << " edits " << done << ", " << edits
+              << " in all, hash of the ground " << hash << '\n';
+    if (ended.absolute > 0.0) {
+      std::cout << ended.surfaces << " live surfaces became samples: " << ended.error << " m^3 more by that, "
+                << ended.absolute << " m^3 without signs\n";
     }
   }
 

@@ -190,6 +190,7 @@ class EditedGround::State {
     return found == checkpoints_.rend() ? nullptr : *found;
   }
   std::size_t edits() const noexcept { return mark_.edits; }
+  const EndedSurfaces& ended() const noexcept { return ended_; }
   /// Of an edit that was pressed.
   void count(const Edit& edit, const PlacedEdit& placed) noexcept {
     mark_ = mark_.followedBy(edit, placed.version);
@@ -201,6 +202,7 @@ class EditedGround::State {
   Result<void> run(Live& live, std::uint64_t upTo, const EditWork& work) const;
   Result<void> runToRest(Live& live, const EditWork& work) const;
   Result<void> write(Live& live);
+  Result<void> noteEnd(const Live& live);
   Result<Room> clear(const PlacedEdit& edit, const EditWork& work);
   Result<bool> extend(std::span<Live* const> living, const PatchRectangle& patches,
                       const HeightMap& ground) const;
@@ -217,6 +219,7 @@ class EditedGround::State {
   void keepCheckpoint();
 
   EditListMark mark_;  // of what was applied so far
+  EndedSurfaces ended_;
   /// Of pauses; the farther back, the fewer.
   std::vector<std::shared_ptr<const GroundCheckpoint>> checkpoints_;
   std::list<Live> live_;  // in the order in which they were begun
@@ -332,6 +335,19 @@ Result<void> EditedGround::State::write(Live& live) {
   return {};
 }
 
+/// Of a surface that is written, before it goes.
+Result<void> EditedGround::State::noteEnd(const Live& live) {
+  const auto error = guarded(live.kind, [&] { return live.surface->samplingError(); });
+  if (!error) return error.error();
+  if (!std::isfinite(*error)) {
+    return Error{"the deformer " + inQuotes(live.kind) + " tells a sampling error that is not finite"};
+  }
+  ++ended_.surfaces;
+  ended_.error += *error;
+  ended_.absolute += std::fabs(*error);
+  return {};
+}
+
 /// Ends the surfaces in the way of an edit but for those of its kind.
 Result<Room> EditedGround::State::clear(const PlacedEdit& edit, const EditWork& work) {
   Room room{edit.needed, {}};
@@ -348,6 +364,7 @@ Result<Room> EditedGround::State::clear(const PlacedEdit& edit, const EditWork& 
       room.patches = larger;
       room.living.push_back(&*inTheWay);
     } else {
+      if (Result<void> noted = noteEnd(*inTheWay); !noted) return noted.error();
       live_.erase(inTheWay);
     }
   }
@@ -384,12 +401,17 @@ Result<bool> EditedGround::State::extend(std::span<Live* const> living, const Pa
 
 /// The surface that has the room from now on, if one of those there takes it; all others end.
 Result<Live*> EditedGround::State::joinedIn(const Room& room, const HeightMap& ground) {
-  Live* one = nullptr;
-  for (std::size_t count = room.living.size(); count > 0 && one == nullptr; count = count > 1 ? 1 : 0) {
-    const Result<bool> extended = extend(std::span(room.living).first(count), room.patches, ground);
+  std::size_t taken = room.living.size();
+  while (taken > 0) {
+    const Result<bool> extended = extend(std::span(room.living).first(taken), room.patches, ground);
     if (!extended) return extended.error();
-    if (*extended) one = room.living.front();
+    if (*extended) break;
+    taken = taken > 1 ? 1 : 0;
   }
+  for (const Live* live : std::span(room.living).subspan(taken)) {
+    if (Result<void> noted = noteEnd(*live); !noted) return noted.error();
+  }
+  Live* const one = taken > 0 ? room.living.front() : nullptr;
   live_.remove_if([&](const Live& live) {
     return &live != one && std::find(room.living.begin(), room.living.end(), &live) != room.living.end();
   });
@@ -472,6 +494,9 @@ Result<void> EditedGround::State::rest(const EditWork& work) {
     if (Result<void> written = write(live); !written) return written;
   }
   if (isPause()) {
+    for (const Live& live : live_) {
+      if (Result<void> noted = noteEnd(live); !noted) return noted;
+    }
     live_.clear();
     keepCheckpoint();
   }
@@ -483,7 +508,7 @@ Result<void> EditedGround::State::rest(const EditWork& work) {
 void EditedGround::State::keepCheckpoint() {
   const std::uint64_t edits = mark_.edits;
   if (edits == 0 || (!checkpoints_.empty() && checkpoints_.back()->mark().edits == edits)) return;
-  checkpoints_.push_back(std::make_shared<const GroundCheckpoint>(mark_, overrides_.share()));
+  checkpoints_.push_back(std::make_shared<const GroundCheckpoint>(mark_, ended_, overrides_.share()));
   std::erase_if(checkpoints_, [edits](const auto& checkpoint) {
     const std::uint64_t pause = checkpoint->mark().edits / kMostEditsTogether;
     const std::uint64_t back = edits / kMostEditsTogether - pause;
@@ -495,9 +520,11 @@ std::size_t EditedGround::State::goBack(std::size_t edits) {
   while (!checkpoints_.empty() && checkpoints_.back()->mark().edits > edits) checkpoints_.pop_back();
   if (checkpoints_.empty()) {
     mark_ = EditListMark::ofNone(hashOf(world_));
+    ended_ = {};
     overrides_ = GroundOverrides(world_.intervals());
   } else {
     mark_ = checkpoints_.back()->mark();
+    ended_ = checkpoints_.back()->ended();
     overrides_ = checkpoints_.back()->overrides();
   }
   live_.clear();
@@ -644,6 +671,10 @@ EditedGround::Snapshot EditedGround::snapshot() {
 std::uint64_t EditedGround::hash() const {
   assert(atRest());
   return state_->overrides().hash();
+}
+
+EndedSurfaces EditedGround::ended() const {
+  return state_->ended();
 }
 
 std::size_t EditedGround::bytes() const {

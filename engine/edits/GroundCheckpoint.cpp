@@ -90,7 +90,7 @@ bool isInWorld(std::int64_t patch) {
 }  // namespace
 
 EditListMark EditListMark::ofNone(std::uint64_t worldHash) noexcept {
-  return {0, hashWith(hashText("teren ground 1"), worldHash)};
+  return {0, hashWith(hashText("teren ground 2"), worldHash)};
 }
 
 EditListMark EditListMark::followedBy(const Edit& edit, std::string_view version) const noexcept {
@@ -108,6 +108,9 @@ EditListMark EditListMark::followedBy(const Edit& edit, std::string_view version
 std::string GroundCheckpoint::text() const {
   std::string text;
   add(text, static_cast<std::uint64_t>(overrides_.intervals()), 4);
+  add(text, ended_.surfaces, 8);
+  add(text, std::bit_cast<std::uint64_t>(ended_.error), 8);
+  add(text, std::bit_cast<std::uint64_t>(ended_.absolute), 8);
   for (const auto& [key, held] : overrides_.patches()) {
     const auto now = held.patch->now.samples(), own = held.patch->own.samples();
     const auto count = std::count_if(now.begin(), now.end(), [](float one) { return !std::isnan(one); });
@@ -128,9 +131,13 @@ std::string GroundCheckpoint::text() const {
 Result<GroundCheckpoint> GroundCheckpoint::read(const EditListMark& mark, std::string_view text) {
   const Error none{"it is not what was written"};
   Reader reader(text);
-  if (!reader.has(4)) return none;
+  if (!reader.has(28)) return none;
   const std::uint64_t intervals = reader.word(4);
   if (!std::has_single_bit(intervals) || intervals > kMostIntervals) return none;
+  EndedSurfaces ended{.surfaces = reader.word(8)};
+  ended.error = std::bit_cast<double>(reader.word(8));
+  ended.absolute = std::bit_cast<double>(reader.word(8));
+  if (!std::isfinite(ended.error) || !(std::isfinite(ended.absolute) && ended.absolute >= 0.0)) return none;
   const std::optional<std::uint64_t> patches = countPatches(reader);
   if (!patches || *patches > kMostBytes / (intervals * intervals * 2 * sizeof(float))) return none;
   GroundOverrides overrides(static_cast<int>(intervals));
@@ -144,7 +151,7 @@ Result<GroundCheckpoint> GroundCheckpoint::read(const EditListMark& mark, std::s
     if (!readPatch(reader, samples, overrides.add(key))) return none;
     before = key;
   }
-  return GroundCheckpoint(mark, overrides.share());
+  return GroundCheckpoint(mark, ended, overrides.share());
 }
 
 }  // namespace teren

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "teren/Edit.h"
+#include "teren/EditedGround.h"
 #include "teren/Result.h"
 
 #include "edits/GroundOverrides.h"
@@ -29,16 +30,17 @@ struct EditListMark {
 /// Immutable.
 class GroundCheckpoint {
  public:
-  GroundCheckpoint(const EditListMark& mark, GroundOverrides overrides)
-      : mark_(mark), overrides_(std::move(overrides)) {}
+  GroundCheckpoint(const EditListMark& mark, const EndedSurfaces& ended, GroundOverrides overrides)
+      : mark_(mark), ended_(ended), overrides_(std::move(overrides)) {}
 
   const EditListMark& mark() const noexcept { return mark_; }
+  const EndedSurfaces& ended() const noexcept { return ended_; }
   int intervals() const noexcept { return overrides_.intervals(); }
   /// Shared with the checkpoint.
   GroundOverrides overrides() const { return overrides_.shared(); }
   std::size_t bytes() const noexcept { return overrides_.bytes(); }
 
-  /// As bytes, little-endian, and back: 12 bytes a sample that is not the world's own, 20 a patch. What was
+  /// As bytes, little-endian, and back: 28, 20 a patch, 12 a sample that is not the world's own. What was
   /// not written by `text` is refused, or read as some other ground: who stores it adds a checksum. Ground of
   /// more than kMostBytes is refused before it takes any.
   static constexpr std::size_t kMostBytes = std::size_t{1} << 31;
@@ -47,6 +49,7 @@ class GroundCheckpoint {
 
  private:
   EditListMark mark_;
+  EndedSurfaces ended_;
   GroundOverrides overrides_;
 };
 

@@ -273,6 +273,43 @@ std::shared_ptr<const DeformedGround> SandIsland::snapshot() {
   return grid_.snapshot();
 }
 
+/// [m^3] Of the TIN above a height.
+double SandIsland::volumeOverOpenSquares(double from) const {
+  const Triangulation& mesh = surface().mesh();
+  double sum = 0.0;  // [m steps^2], sixfold
+  for (TriangleId t = 0; t < mesh.triangleSlots(); ++t) {
+    if (!mesh.isTriangle(t) || !surface().isOpen(t)) continue;
+    const std::array<VertexId, 3>& corners = mesh.corners(t);
+    const auto twice = static_cast<double>(
+        orientation(mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])));
+    sum += twice * (mesh.height(corners[0]) + mesh.height(corners[1]) + mesh.height(corners[2]) - 3.0 * from);
+  }
+  return sum * surface().step() * surface().step() / 6.0;
+}
+
+/// [m^3] The same, of the grid's triangles on the samples, as they are given out.
+double SandIsland::volumeUnderSamples(double from) const {
+  const OpenCells& cells = surface().cells();
+  const auto height = [&](int x, int y) {
+    return static_cast<double>(static_cast<float>(grid_(x, y))) - from;
+  };
+  double sum = 0.0;  // [m squares], sixfold
+  for (int y = 0; y < cells.rows(); ++y) {
+    for (int x = 0; x < cells.columns(); ++x) {
+      if (!cells.isOpen(x, y)) continue;
+      sum += 2.0 * (height(x, y) + height(x + 1, y + 1)) + height(x + 1, y) + height(x, y + 1);
+    }
+  }
+  return sum * grid_.region().spacing * grid_.region().spacing / 6.0;
+}
+
+double SandIsland::samplingError() const {
+  assert(atRest());
+  const auto heights = ground_.samples();
+  const double from = *std::min_element(heights.begin(), heights.end());
+  return volumeUnderSamples(from) - volumeOverOpenSquares(from);
+}
+
 std::size_t SandIsland::bytes() const noexcept {
   return sizeof(*this) - sizeof(grid_) - sizeof(sandbox_) + grid_.bytes() + sandbox_.bytes() +
          ground_.samples().size() * sizeof(float);

@@ -87,6 +87,9 @@ class SandIsland final : public LiveSurface {
   Result<void> merge(const DeformRegion& region, ConstHeightView ground,
                      std::span<LiveSurface* const> others) override;
 
+  /// Within 1e-9 of what lies over the lowest of the region's heights.
+  double samplingError() const override;
+
   const SandSurface& surface() const noexcept { return sandbox_.surface(); }
   /// So many faces are looked at until sand lies as it lies.
   std::uint64_t looksLeft() const noexcept;
@@ -98,6 +101,8 @@ class SandIsland final : public LiveSurface {
 
   void work();
   void sample(TriangleId t);
+  double volumeOverOpenSquares(double from) const;
+  double volumeUnderSamples(double from) const;
   void take(SandIsland& other);
 
   HeightMap ground_;

@@ -129,6 +129,11 @@ class LiveSurface {
   /// Every byte held, what it shares with its last snapshot included.
   virtual std::size_t bytes() const noexcept = 0;
 
+  /// [m^3] At rest (assert): how much more volume lies under the samples of its last snapshot, on the grid's
+  /// triangles, than under the surface itself; what is lost or won where it ends. None where samples are all
+  /// there is. O(samples and what else it has).
+  virtual double samplingError() const { return 0.0; }
+
   /// At rest only (assert): from now on it covers `region`, of which its own is a part. `ground` has that
   /// region's samples; those where it lay are the ones that it began with. Stamps are then placed from the
   /// new corner, and that is all: samples and steps stay, and what comes is as if it had begun over the

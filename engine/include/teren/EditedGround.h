@@ -39,6 +39,16 @@ using DeformerSource = std::function<Result<DeformerKind>(std::string_view id)>;
 /// The registry's deformers.
 DeformerSource deformersOf(std::shared_ptr<const PluginRegistry> registry);
 
+/// Live surfaces that have ended, and what was lost or won by that: in them volume is kept, but what remains
+/// are samples (LiveSurface::samplingError).
+struct EndedSurfaces {
+  std::uint64_t surfaces = 0;
+  double error = 0.0;     ///< [m^3] of all together, positive where there is more now
+  double absolute = 0.0;  ///< [m^3] of each by itself, added up without their signs
+
+  friend bool operator==(const EndedSurfaces&, const EndedSurfaces&) = default;
+};
+
 /// How work at edits is cut up. What comes out does not depend on it.
 struct EditWork {
   std::chrono::microseconds slice{0};  ///< how long a slice may be; zero: unlimited
@@ -131,6 +141,8 @@ class EditedGround {
 
   /// Of all that was changed, where and to what; the same wherever the list was applied.
   std::uint64_t hash() const;
+  /// What has ended so far; the same wherever the list was applied, too.
+  EndedSurfaces ended() const;
 
   /// Bytes of changed samples and of live surfaces.
   std::size_t bytes() const;

@@ -79,6 +79,17 @@ TEST(EditsCommand, ListsWhatWasAppliedAsATextThatCanBeAppliedAgain) {
   EXPECT_EQ(again["hash"], verified["hash"]);
   EXPECT_EQ(verified["verified"], 2);
   EXPECT_EQ(verified["edits"], 2);
+  EXPECT_EQ(verified["ended"], (nlohmann::json{{"surfaces", 0}, {"error", 0.0}, {"absolute", 0.0}}));
+}
+
+TEST(EditsCommand, TellsWhatVolumeBecameOfSurfacesThatEnded) {
+  const Land land;
+  const std::string text =
+      "stamp sand 10 20 0 12 4 7 0\nstamp crater 10 20 0 12 2 7 1000000\nstamp sand 10 20 0 12 4 7 9\n";
+  const Answer applied = land.edits({"apply", land.text("both.txt", text)});
+  EXPECT_EQ(applied.exitCode, 0) << applied.complaint;
+  EXPECT_NE(applied.output.find("\n2 live surfaces became samples: "), std::string::npos) << applied.output;
+  EXPECT_NE(applied.output.find(" m^3 more by that, "), std::string::npos) << applied.output;
 }
 
 TEST(EditsCommand, OfTwoProgramsThatApplyTheSameTextEndWithTheSameGround) {

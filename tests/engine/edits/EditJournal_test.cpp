@@ -339,7 +339,8 @@ std::shared_ptr<const GroundCheckpoint> someGround(std::uint64_t seed = 1, int p
       patch.own(place % 32, place / 32) = -1.5F;
     }
   }
-  return std::make_shared<const GroundCheckpoint>(EditListMark{128, 77}, overrides.share());
+  return std::make_shared<const GroundCheckpoint>(EditListMark{128, 77}, EndedSurfaces{3, -0.25, 1.5},
+                                                  overrides.share());
 }
 
 TEST(EditJournal, KeepsGroundBesideItsEdits) {
@@ -413,13 +414,16 @@ TEST(EditJournal, TakesNoGroundThatCouldNotHaveBeenWritten) {
   using namespace std::string_view_literals;
   EXPECT_TRUE(refused(0, "\x21"sv)) << "no power of two";
   EXPECT_TRUE(refused(0, "\0\0\0\x40"sv)) << "a patch beyond all memory";
-  EXPECT_TRUE(refused(20, "\xff\xff\xff\xff"sv)) << "more samples than there are";
-  EXPECT_TRUE(refused(24, "\0\x04\0\0"sv)) << "a sample beyond its patch";
-  EXPECT_TRUE(refused(28, "\0\0\xc0\x7f"sv)) << "NaN";
-  EXPECT_TRUE(refused(32, "\0\0\x80\x7f"sv)) << "infinity";
-  EXPECT_TRUE(refused(4, "\x09"sv)) << "patches out of order";
+  EXPECT_TRUE(refused(12, "\0\0\0\0\0\0\xf0\x7f"sv)) << "infinite volume";
+  EXPECT_TRUE(refused(20, "\0\0\0\0\0\0\xf0\xbf"sv)) << "a size below 0";
+  EXPECT_TRUE(refused(44, "\xff\xff\xff\xff"sv)) << "more samples than there are";
+  EXPECT_TRUE(refused(48, "\0\x04\0\0"sv)) << "a sample beyond its patch";
+  EXPECT_TRUE(refused(52, "\0\0\xc0\x7f"sv)) << "NaN";
+  EXPECT_TRUE(refused(56, "\0\0\x80\x7f"sv)) << "infinity";
+  EXPECT_TRUE(refused(28, "\x09"sv)) << "patches out of order";
   // Patches of a sample each, of the largest side, without end.
-  std::string sparse("\0\2\0\0"sv);
+  constexpr std::size_t kHead = 28;
+  std::string sparse = std::string("\0\2\0\0"sv) + std::string(kHead - 4, '\0');
   for (std::uint32_t k = 0; k < 1100; ++k) {
     std::string patch(32, '\0');
     patch[8] = static_cast<char>(k);
@@ -429,11 +433,11 @@ TEST(EditJournal, TakesNoGroundThatCouldNotHaveBeenWritten) {
     sparse += patch;
   }
   EXPECT_FALSE(GroundCheckpoint::read(good->mark(), sparse).ok());
-  EXPECT_TRUE(GroundCheckpoint::read(good->mark(), std::string_view(sparse).substr(0, 4 + 3 * 32)).ok());
+  EXPECT_TRUE(GroundCheckpoint::read(good->mark(), std::string_view(sparse).substr(0, kHead + 3 * 32)).ok());
   EXPECT_TRUE(refused(0, "\0\4"sv)) << "a patch of no world";
-  std::string beyond = sparse.substr(0, 4 + 32);
+  std::string beyond = sparse.substr(0, kHead + 32);
   EXPECT_TRUE(GroundCheckpoint::read(good->mark(), beyond).ok());
-  beyond[4 + 14] = 0x11;
+  beyond[kHead + 14] = 0x11;
   EXPECT_FALSE(GroundCheckpoint::read(good->mark(), beyond).ok()) << "beyond the world";
   for (std::size_t size = 0; size < text.size(); size += 13) {
     const auto cut = GroundCheckpoint::read(good->mark(), std::string_view(text).substr(0, size));

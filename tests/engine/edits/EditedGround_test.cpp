@@ -378,11 +378,45 @@ TEST(EditedGround, GrowsTheFirstWhereSurfacesDoNotMerge) {
 }
 
 TEST(EditedGround, BeginsAnotherSurfaceWhereOneDoesNotGrow) {
-  const std::vector<Edit> edits = {bowl(20.0, 20.0, 20.0, 0, "small"), bowl(120.0, 20.0, 20.0, 9, "small")};
+  const std::vector<Edit> edits = {bowl(20.0, 20.0, 20.0, 0, "small"), bowl(80.0, 20.0, 20.0, 9, "small")};
   const auto before = applied({edits[0]});
   EXPECT_TRUE(
       sameBits(groundOf(kAround, applied(edits).get()),
                bySurface(*testDeformer("small"), kAround, groundOf(kAround, before.get()), {edits[1]})));
+}
+
+TEST(EditedGround, TellsWhatWasLostWhereSurfacesEnded) {
+  std::vector<Edit> edits = {bowl(20.0, 20.0), bowl(20.0, 25.0, 20.0, 9)};
+  EXPECT_EQ(applied(edits)->ended(), EndedSurfaces()) << "what is at rest lives on";
+  edits.push_back(bowl(20.0, 20.0, 20.0, 9, "other-bowl"));  // ends the one of two bowls
+  EXPECT_EQ(applied(edits)->ended(), (EndedSurfaces{1, -0.5, 0.5}));
+  edits.push_back(bowl(20.0, 20.0, 20.0, 9));
+  EXPECT_EQ(applied(edits)->ended(), (EndedSurfaces{2, -0.25, 0.75}));
+  edits.push_back(bowl(20.0, 20.0, 20.0, 9, "small"));
+  edits.push_back(bowl(80.0, 20.0, 20.0, 9, "small"));  // does not grow
+  EXPECT_EQ(applied(edits)->ended(), (EndedSurfaces{4, 0.25, 1.25}));
+  while (edits.size() < EditedGround::kMostEditsTogether) edits.push_back(bowl(500.0, 500.0, 20.0, 9));
+  EXPECT_EQ(applied(edits)->ended().surfaces, 6U) << "and everything ends then";
+}
+
+TEST(EditedGround, TellsTheVolumeThatSandWinsOrLosesAtItsEnd) {
+  EditedGround ground(testWorld(), deformersOf(PluginRegistry::standard()));
+  const Edit dig{"sand", 30.0, 30.0, 0.0, 12.0, 4.0, 3, 0, {}};
+  ASSERT_TRUE(ground.apply(dig));
+  ASSERT_TRUE(ground.rest());
+  const HeightMap before = groundOf(kAround, nullptr), after = groundOf(kAround, &ground);
+  double sum = 0.0, moved = 0.0;  // the rim stays, so a square for each sample
+  for (std::size_t k = 0; k < before.samples().size(); ++k) {
+    const double change = 16.0 * (static_cast<double>(after.samples()[k]) - before.samples()[k]);
+    sum += change;
+    moved += std::fabs(change);
+  }
+  Edit other{"crater", 30.0, 30.0, 0.0, 12.0, 1.0, 3, ground.stepsSinceEdit(), {}};
+  ASSERT_TRUE(ground.apply(other));
+  ASSERT_TRUE(ground.rest());
+  EXPECT_GT(moved, 100.0);
+  EXPECT_NE(ground.ended().error, 0.0);
+  EXPECT_NEAR(ground.ended().error, sum, 1e-5 * moved) << "as nothing was poured";
 }
 
 TEST(EditedGround, GrowsNoSurfaceBeyondTheMostJoinedSamples) {
@@ -532,8 +566,14 @@ TEST(EditedGround, IsTheSameReplayedFromAnyLengthAndAppliesFewEditsAgain) {
   const auto beginning = [&](std::size_t count) {
     return std::vector<Edit>(edits.begin(), edits.begin() + static_cast<std::ptrdiff_t>(count));
   };
-  BowlCounts counts;
+  BowlCounts counts, others;
   EditedGround ground(testWorld(), countedBowls(counts));
+  const auto endedBy = [&](const std::vector<Edit>& list) {
+    EditedGround other(testWorld(), countedBowls(others));
+    EXPECT_TRUE(other.replay(list));
+    EXPECT_TRUE(other.rest());
+    return other.ended();
+  };
   for (const Edit& edit : edits) ASSERT_TRUE(ground.apply(edit));
   ASSERT_TRUE(ground.rest());
   EXPECT_EQ(counts.applied, kMany);
@@ -544,6 +584,7 @@ TEST(EditedGround, IsTheSameReplayedFromAnyLengthAndAppliesFewEditsAgain) {
     EXPECT_FALSE(ground.atRest() && count % EditedGround::kMostEditsTogether != 0);
     ASSERT_TRUE(ground.rest());
     EXPECT_EQ(ground.hash(), applied(beginning(count))->hash()) << count;
+    EXPECT_TRUE(ground.ended() == endedBy(beginning(count))) << count;
     if (count < edits.size()) {
       EXPECT_LE(counts.applied - before, static_cast<int>(EditedGround::kMostEditsTogether));
     }
@@ -553,17 +594,21 @@ TEST(EditedGround, IsTheSameReplayedFromAnyLengthAndAppliesFewEditsAgain) {
 TEST(EditedGround, BeginsWithWhatAnotherOneHasLeftWhereThatFitsTheEdits) {
   constexpr std::size_t kMany = 2 * EditedGround::kMostEditsTogether + 20;
   const std::vector<Edit> edits = randomEdits(13, static_cast<int>(kMany), 0.0, 0.0);
-  const auto first = applied(edits);
-  const auto left = first->checkpoint();
-  ASSERT_TRUE(left);
   EXPECT_FALSE(applied({bowl(0.0, 0.0)})->checkpoint());
   BowlCounts counts;
-  EditedGround second(testWorld(), countedBowls(counts));
+  EditedGround first(testWorld(), countedBowls(counts)), second(testWorld(), countedBowls(counts));
+  ASSERT_TRUE(first.replay(edits));
+  ASSERT_TRUE(first.rest());
+  const auto left = first.checkpoint();
+  ASSERT_TRUE(left);
+  counts.applied = 0;
   ASSERT_TRUE(*second.adopt(left, edits));
   ASSERT_TRUE(second.replay(edits));
   ASSERT_TRUE(second.rest());
   EXPECT_EQ(counts.applied, 20);
-  EXPECT_EQ(second.hash(), first->hash());
+  EXPECT_EQ(second.hash(), first.hash());
+  EXPECT_GE(first.ended().surfaces, 2U) << "at each pause";
+  EXPECT_EQ(second.ended(), first.ended());
   const auto refusal = [&](const std::vector<Edit>& list, const std::string& version = "1") {
     EditedGround ground(testWorld(), countedBowls(counts, version));
     return !*ground.adopt(left, list);

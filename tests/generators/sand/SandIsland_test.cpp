@@ -235,8 +235,20 @@ TEST(SandIsland, LosesOnlyTheSamplingErrorWhenItIsWrittenBack) {
     const auto [sum, raised] = changes(ground, island.heights());
     EXPECT_GT(raised, 0.3 * 3.14 * size * size * 0.25 * size);
     EXPECT_LT(std::fabs(sum), bound * raised) << sum / raised;
+    EXPECT_NEAR(island->samplingError(), sum, 1e-6 * raised) << "on the TIN no volume is lost";
     RecordProperty("sampling_error_" + std::to_string(static_cast<int>(size)), std::to_string(sum / raised));
   }
+}
+
+TEST(SandIsland, TellsItsSamplingErrorOnTheTrianglesThatAreDrawn) {
+  const HeightMap ground = groundOf(kRegion, waves);
+  Island island(ground);
+  EXPECT_EQ(island->samplingError(), 0.0);
+  island.press(stamp(128.0, 96.0, 9.0, 3.0));
+  island.rest();
+  const auto [sum, raised] = changes(ground, island.heights());
+  EXPECT_GT(std::fabs(sum), 1e-3 * raised);
+  EXPECT_NEAR(island->samplingError(), sum, 1e-6 * raised);
 }
 
 TEST(SandIsland, SpreadsSandOverPatchBordersAsWithinPatches) {
