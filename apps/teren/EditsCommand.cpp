@@ -220,8 +220,9 @@ class EditsCommand final : public Command {
     std::cout << file.string() << ": " << count << " edits " << done << ", " << edits
               << " in all, hash of the ground " << hash << '\n';
     if (ended.absolute > 0.0) {
-      std::cout << ended.surfaces << " live surfaces became samples: " << ended.error << " m^3 more by that, "
-                << ended.absolute << " m^3 without signs\n";
+      std::cout << ended.surfaces << (ended.surfaces == 1 ? " live surface" : " live surfaces")
+                << " became samples: " << ended.error << " m^3 more by that, " << ended.absolute
+                << " m^3 without signs\n";
     }
   }
 
