@@ -123,8 +123,8 @@ Json detailedFlight(const Arguments& added) {
 }
 
 TEST(FlightCommand, CountsTheFramesAfterTenSecondsWhosePixelErrorIsAsWanted) {
-  EXPECT_EQ(detailedFlight({"--seconds", "10", "--generator", "flat", "--budget-us", "100"}).at("frames"), 0);
-  const Json flat = detailedFlight({"--seconds", "11", "--generator", "flat", "--budget-us", "100"});
+  EXPECT_EQ(detailedFlight({"--seconds", "10", "--generator", "flat", "--budget-us", "500"}).at("frames"), 0);
+  const Json flat = detailedFlight({"--seconds", "11", "--generator", "flat", "--budget-us", "500"});
   EXPECT_EQ(flat.at("frames"), 60);
   EXPECT_EQ(flat.at("reached"), 60);
   EXPECT_EQ(flat.at("seen").at("max"), 0.0);
