@@ -137,6 +137,12 @@ double slopeOf(const Face& face, double step) noexcept {
   return std::sqrt(x * x + y * y) / areaOf(face) * (kMetresPerTick / step);
 }
 
+bool leansOn(const Face& face, std::size_t fixed) noexcept {
+  return std::ranges::any_of(face, [&](const FaceCorner& corner) {
+    return !corner.isFixed && canFall(corner) && corner.height > face[fixed].height;
+  });
+}
+
 double energyChange(const Face& face, const FaceMove& move) noexcept {
   const RealMove deviation = deviationsOf(face);
   double sum = 0.0;

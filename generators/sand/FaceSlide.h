@@ -30,6 +30,10 @@ using FaceMove = std::array<std::int64_t, 3>;
 /// the lattice's [m]. Relative error below 1e-14.
 double slopeOf(const Face& face, double step) noexcept;
 
+/// Something loose at another corner lies higher than a fixed one: if that gave way, the face, being steep,
+/// would slide onto it.
+bool leansOn(const Face& face, std::size_t fixed) noexcept;
+
 /// All three corners bear loose material: only such a face is promised to come to rest.
 constexpr bool isLoose(const Face& face) noexcept {
   return face[0].loose > kBareTicks && face[1].loose > kBareTicks && face[2].loose > kBareTicks;

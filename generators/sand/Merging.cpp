@@ -19,7 +19,6 @@ class Merging {
       : surface_(surface), other_(other), taken_(other.mesh().vertexSlots(), kNoVertex) {}
 
   void collect();
-  void open(int column, int row);
   void enterVertices(int column, int row);
   void enterEdges(std::uint32_t ids);
   void forgetPast();
@@ -48,15 +47,6 @@ void Merging::collect() {
   std::sort(triangles_.begin(), triangles_.end());
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-}
-
-void Merging::open(int column, int row) {
-  const OpenCells& cells = other_.cells();
-  for (int y = 0; y < cells.rows(); ++y) {
-    for (int x = 0; x < cells.columns(); ++x) {
-      if (cells.isOpen(x, y)) surface_.open(column + x, row + y);
-    }
-  }
 }
 
 void Merging::enterVertices(int column, int row) {
@@ -109,7 +99,7 @@ std::vector<VertexId> mergeSand(SandSurface& surface, const SandSurface& other, 
   Merging merging(surface, other);
   merging.collect();
   merging.enterVertices(column, row);
-  merging.open(column, row);
+  surface.open(other.cells(), column, row);
   merging.enterEdges(ids);
   merging.forgetPast();
   surface.takeAccount(other);

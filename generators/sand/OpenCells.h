@@ -1,4 +1,5 @@
-// Which squares of a grid of level 0 are sand by now; all others are ground that must not move.
+// A set of squares of a grid of level 0: those that are sand by now, while all others are ground that must
+// not move.
 #pragma once
 
 #include <cstddef>
@@ -43,12 +44,16 @@ class OpenCells {
   /// north, so that there are `columns` x `rows`. O(squares).
   OpenCells grown(int west, int south, int columns, int rows) const {
     OpenCells larger({corner_.x - (west << shift_), corner_.y - (south << shift_)}, columns, rows, shift_);
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        if (isOpen(column, row)) larger.open(column + west, row + south);
+    larger.take(*this, west, south);
+    return larger;
+  }
+  /// Opens what is open in others that lie from (column, row) on. O(squares of theirs).
+  void take(const OpenCells& other, int column, int row) {
+    for (int y = 0; y < other.rows_; ++y) {
+      for (int x = 0; x < other.columns_; ++x) {
+        if (other.isOpen(x, y)) open(column + x, row + y);
       }
     }
-    return larger;
   }
 
   bool isFixed(LatticePoint p) const noexcept {

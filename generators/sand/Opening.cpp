@@ -27,32 +27,16 @@ std::array<Opening::Side, 4> Opening::sidesOf(const Cell& cell) noexcept {
            {northWest, southWest, {column - 1, row}}}};
 }
 
-void Opening::collect(const SandSurface& surface, ConstHeightView ground, double x, double y,
-                      double distance) {
-  const double spacing = surface.step() * static_cast<double>(std::int64_t{1} << surface.cells().shift());
-  const int columns = ground.columns() - 1 - kCollarCells, rows = ground.rows() - 1 - kCollarCells;
-  const int west = within((x - distance) / spacing, kCollarCells, columns);
-  const int east = within((x + distance) / spacing + 1.0, west, columns);
-  const int south = within((y - distance) / spacing, kCollarCells, rows);
-  const int north = within((y + distance) / spacing + 1.0, south, rows);
-  const double most = distance * distance * (1.0 - 1e-12);
-  const auto farthest = [spacing](double from, int cell) {
-    return std::max(std::fabs(cell * spacing - from), std::fabs((cell + 1) * spacing - from));
-  };
-  cells_.clear();
-  for (int row = south; row < north; ++row) {
-    const double up = farthest(y, row);
-    for (int column = west; column < east; ++column) {
-      const double along = farthest(x, column);
-      if (!(along * along + up * up <= most) || surface.cells().isOpen(column, row)) continue;
-      cells_.push_back({column, row});
-    }
-  }
-  column_ = west;
-  row_ = south;
-  columns_ = east - west + 1;
-  vertices_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(north - south + 1),
-                   kNoVertex);
+/// Ids for the rectangle around them.
+void Opening::makeRoom(std::span<const Cell> cells) {
+  cells_.assign(cells.begin(), cells.end());
+  const auto [west, east] = std::ranges::minmax(cells_, {}, &Cell::column);
+  const auto [south, north] = std::ranges::minmax(cells_, {}, &Cell::row);
+  column_ = west.column;
+  row_ = south.row;
+  columns_ = east.column - west.column + 2;
+  const std::size_t rows = static_cast<std::size_t>(north.row - south.row + 2);
+  vertices_.assign(static_cast<std::size_t>(columns_) * rows, kNoVertex);
 }
 
 void Opening::enterVertices(SandSurface& surface, ConstHeightView ground) {
@@ -100,14 +84,16 @@ void Opening::forgetPast(SandSurface& surface) {
   }
 }
 
-void Opening::enter(SandSurface& surface, ConstHeightView ground, double x, double y, double distance) {
+void Opening::enter(SandSurface& surface, ConstHeightView ground, std::span<const Cell> cells) {
   assert(surface.cells().hasFence());
-  collect(surface, ground, x, y, distance);
+  inside_.clear();
+  cells_.clear();
+  if (cells.empty()) return;
+  makeRoom(cells);
   enterVertices(surface, ground);
   for (const auto& [column, row] : cells_) surface.open(column, row);
   enterEdges(surface);
   forgetPast(surface);
-  inside_.clear();
   for (const VertexId v : vertices_) {
     if (v != kNoVertex && !surface.isFixed(v)) inside_.push_back(v);
   }
@@ -118,6 +104,28 @@ void Opening::join(SandSurface& surface) {
     for (const Side& side : sidesOf(cell)) {
       if (!surface.cells().isOpen(side.beyond.column, side.beyond.row)) continue;
       if (surface.mesh().constraint(side.from, side.to)) surface.unconstrain(side.from, side.to);
+    }
+  }
+}
+
+void forEachCellWithin(const SandSurface& surface, double x, double y, double distance,
+                       const std::function<void(Opening::Cell)>& visit) {
+  const OpenCells& cells = surface.cells();
+  const double spacing = surface.step() * static_cast<double>(std::int64_t{1} << cells.shift());
+  const int columns = cells.columns() - kCollarCells, rows = cells.rows() - kCollarCells;
+  const int west = within((x - distance) / spacing, kCollarCells, columns);
+  const int east = within((x + distance) / spacing + 1.0, west, columns);
+  const int south = within((y - distance) / spacing, kCollarCells, rows);
+  const int north = within((y + distance) / spacing + 1.0, south, rows);
+  const double most = distance * distance * (1.0 - 1e-12);
+  const auto farthest = [spacing](double from, int cell) {
+    return std::max(std::fabs(cell * spacing - from), std::fabs((cell + 1) * spacing - from));
+  };
+  for (int row = south; row < north; ++row) {
+    const double up = farthest(y, row);
+    for (int column = west; column < east; ++column) {
+      const double along = farthest(x, column);
+      if (along * along + up * up <= most) visit({column, row});
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -25,9 +26,11 @@ class Opening {
  public:
   static constexpr std::uint32_t kFenceId = 0xffffffffU;
 
-  /// All squares that lie wholly within `distance` [m] of a place, without the collar's (kCollarCells):
-  /// those that are closed enter and are open from now on. `ground` has the samples of the surface's cells.
-  void enter(SandSurface& surface, ConstHeightView ground, double x, double y, double distance);
+  struct Cell {
+    int column = 0, row = 0;
+  };
+  /// Squares that are closed, each once, enter and are open from now on. `ground` has the samples of all.
+  void enter(SandSurface& surface, ConstHeightView ground, std::span<const Cell> cells);
   /// The vertices of what has entered, without those that are fixed.
   std::span<const VertexId> inside() const noexcept { return inside_; }
   /// Takes away what was the fence between them and those that were open before.
@@ -39,9 +42,6 @@ class Opening {
   }
 
  private:
-  struct Cell {
-    int column = 0, row = 0;
-  };
   /// A side of a cell: from where to where, counter-clockwise, and the cell beyond.
   struct Side {
     VertexId from = kNoVertex, to = kNoVertex;
@@ -53,7 +53,7 @@ class Opening {
                      static_cast<std::size_t>(column - column_)];
   }
   std::array<Side, 4> sidesOf(const Cell& cell) noexcept;
-  void collect(const SandSurface& surface, ConstHeightView ground, double x, double y, double distance);
+  void makeRoom(std::span<const Cell> cells);
   void enterVertices(SandSurface& surface, ConstHeightView ground);
   void enterEdges(SandSurface& surface);
   void forgetPast(SandSurface& surface);
@@ -63,5 +63,10 @@ class Opening {
   std::vector<VertexId> vertices_;  // of the samples around, kNoVertex where no cell comes
   std::vector<VertexId> inside_;
 };
+
+/// The squares of a surface's cells that lie wholly within `distance` [m] of a place, without the collar's
+/// (kCollarCells), row by row.
+void forEachCellWithin(const SandSurface& surface, double x, double y, double distance,
+                       const std::function<void(Opening::Cell)>& visit);
 
 }  // namespace teren

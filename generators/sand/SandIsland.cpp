@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -18,11 +19,14 @@ constexpr std::int64_t kMostInAll = std::int64_t{1} << 30;
 /// A unit of work: some tens of microseconds.
 constexpr std::uint64_t kUnitFaces = 8;
 constexpr std::size_t kUnitVertices = 4;
+constexpr int kUnitCorners = 64;
 constexpr int kTeeth = 3;
-constexpr double kLooks = 44.5;        // 8 pi^1.5
+constexpr double kLooks = 8.0;         // times n^1.5
 constexpr double kThinnestWall = 8.5;  // [steps], a little more than Stamper asks for
 /// What a tool of no depth moves, its berm included, and how far sand runs out from a berm's top.
 constexpr double kReachOfTool = 2.0, kReachOfDepth = 3.0, kReachOfSpacing = 3.0;
+/// How much farther it may run down a slope: so many times as far, but no more than some spacings.
+constexpr double kRunOut = 2.0, kMostRunOut = 96.0;
 
 Error wrong(const char* field, double value, const std::string& expected) {
   return {std::string(field) + " is " + metresText(value) + ", expected " + expected};
@@ -128,7 +132,8 @@ Result<SandPress> SandIsland::read(const Stamp& stamp, double spacing) {
     press.pushX = way.cosine;
     press.pushY = way.sine;
   }
-  press.reach = kReachOfTool * tool + kReachOfDepth * std::fabs(stamp.depth) + kReachOfSpacing * spacing;
+  press.opens = kReachOfTool * tool + kReachOfDepth * std::fabs(stamp.depth) + kReachOfSpacing * spacing;
+  press.reach = press.opens + std::min(kRunOut * press.opens, kMostRunOut * spacing);
   return press;
 }
 
@@ -141,7 +146,8 @@ Result<std::unique_ptr<LiveSurface>> SandIsland::begin(const DeformRegion& regio
 SandIsland::SandIsland(const DeformRegion& region, ConstHeightView ground)
     : ground_(copyOf(ground)),
       grid_(region, ground),
-      sandbox_(closedSurface(region, ground), settingsFor(region.spacing)) {}
+      sandbox_(closedSurface(region, ground), settingsFor(region.spacing)),
+      reached_(cellsOf(region)) {}
 
 Result<void> SandIsland::apply(const Stamp& stamp) {
   const Result<SandPress> press = read(stamp, grid_.region().spacing);
@@ -149,10 +155,7 @@ Result<void> SandIsland::apply(const Stamp& stamp) {
   if (Result<void> place = checkPlace(grid_.region(), stamp, press->reach); !place) return place;
   if (Result<void> room = SandSurface::hasRoom(surface().mesh().vertexCount()); !room) return room;
   while (begun_) work();
-  sandbox_.open(ground_.view(), stamp.east, stamp.north, press->reach);
-  const double across = press->reach / grid_.region().spacing;
-  const std::uint64_t looks = looksLeft() + static_cast<std::uint64_t>(kLooks * across * across * across);
-  slidesUntil_ = sandbox_.slides().count().steps + std::min(looks, kMostLooks);
+  takeGroundIn(stamp, *press);
   sandbox_.setReposeOfWhatMoves(press->dryAngle, press->moisture);
   if (press->tool) {
     const LatticePoint middle = *surface().mesh().frame().snap(stamp.east, stamp.north);
@@ -166,6 +169,30 @@ Result<void> SandIsland::apply(const Stamp& stamp) {
   sandbox_.pour(stamp.east, stamp.north, press->radius, press->height);
   poured_ += volumeOf(surface().entered() - before, surface().step());
   return {};
+}
+
+void SandIsland::takeGroundIn(const Stamp& stamp, const SandPress& press) {
+  const auto forEachCell = [&](double distance, const auto& visit) {
+    forEachCellWithin(surface(), stamp.east, stamp.north, distance, visit);
+  };
+  forEachCell(press.reach, [&](Opening::Cell cell) { reached_.open(cell.column, cell.row); });
+  cells_.clear();
+  forEachCell(press.opens, [&](Opening::Cell cell) {
+    if (!surface().cells().isOpen(cell.column, cell.row)) cells_.push_back(cell);
+  });
+  sandbox_.open(ground_.view(), cells_);
+  sandbox_.forgetLeanedOn();
+  leanedSeen_ = 0;  // more may give way now
+  const double across = press.opens / grid_.region().spacing;
+  squares_ = std::numbers::pi * across * across;
+  const std::uint64_t done = sandbox_.slides().count().steps;
+  slidesUntil_ = done + looksLeft();
+  slidesMost_ = done + kMostLooks;
+  allowLooks(kLooks * squares_ * std::sqrt(squares_));
+}
+
+void SandIsland::allowLooks(double looks) {
+  slidesUntil_ = std::min(slidesUntil_ + static_cast<std::uint64_t>(looks), slidesMost_);
 }
 
 std::uint64_t SandIsland::looksLeft() const noexcept {
@@ -191,13 +218,50 @@ void SandIsland::work() {
     return;
   }
   faces_ = kStepFaces;  // what the clean-up unsettles is the next step's
-  sandbox_.clean(kUnitVertices);
-  vertices_ += kUnitVertices;
-  if (vertices_ < kStepVertices && sandbox_.hasToClean()) return;
+  if (vertices_ < kStepVertices) {
+    sandbox_.clean(kUnitVertices);
+    vertices_ = sandbox_.hasToClean() ? vertices_ + kUnitVertices : kStepVertices;
+    if (vertices_ < kStepVertices) return;
+  }
+  if (runOut()) return;
   faces_ = 0;
   vertices_ = 0;
   begun_ = false;
   ++steps_;
+}
+
+/// The closed squares around a corner to which sand may run.
+void SandIsland::findWayOut(LatticePoint corner) {
+  const OpenCells& cells = surface().cells();
+  const int east = cells.columnOf(corner.x), north = cells.rowOf(corner.y);
+  cells_.clear();
+  for (int row = north - kRunOutCells; row < north + kRunOutCells; ++row) {
+    for (int column = east - kRunOutCells; column < east + kRunOutCells; ++column) {
+      if (reached_.isOpen(column, row) && !cells.isOpen(column, row)) cells_.push_back({column, row});
+    }
+  }
+}
+
+/// A unit: opens squares around the next corner of the fence that sand leans on. False: there is none.
+bool SandIsland::runOut() {
+  const auto corners = sandbox_.slides().leanedOn().ids();
+  for (int unit = 0; leanedSeen_ < corners.size() && looksLeft() > 0; ++unit) {
+    if (unit == kUnitCorners) return true;
+    const VertexId corner = corners[leanedSeen_++];
+    assert(surface().mesh().isVertex(corner));
+    findWayOut(surface().mesh().point(corner));
+    if (cells_.empty()) continue;
+    sandbox_.open(ground_.view(), cells_);
+    const double more = static_cast<double>(cells_.size());
+    allowLooks(1.5 * kLooks * std::sqrt(squares_) * more);  // what n^1.5 grows by
+    squares_ += more;
+    return runsOut_ = true;
+  }
+  if (std::exchange(runsOut_, false)) {
+    sandbox_.forgetLeanedOn();
+    leanedSeen_ = sandbox_.slides().leanedOn().ids().size();
+  }
+  return false;
 }
 
 Result<void> SandIsland::grow(const DeformRegion& region, ConstHeightView ground) {
@@ -217,6 +281,7 @@ Result<void> SandIsland::grow(const DeformRegion& region, ConstHeightView ground
   grid_.grow(region, ground);
   ground_ = copyOf(ground);
   sandbox_.grow(west, south, columns, rows);
+  reached_ = reached_.grown(west, south, columns, rows);
   return {};
 }
 
@@ -239,7 +304,10 @@ void SandIsland::take(SandIsland& other) {
   grid_.take(other.grid_);
   const SampleRectangle place = grid_.region().placeOf(other.grid_.region());
   sandbox_.take(other.sandbox_, place.column, place.row);
-  slidesUntil_ = sandbox_.slides().count().steps + std::min(looksLeft() + other.looksLeft(), kMostLooks);
+  reached_.take(other.reached_, place.column, place.row);
+  const std::uint64_t left = looksLeft() + other.looksLeft();
+  slidesMost_ = sandbox_.slides().count().steps + kMostLooks;
+  slidesUntil_ = std::min(sandbox_.slides().count().steps + left, slidesMost_);
   poured_ += other.poured_;
 }
 
@@ -312,6 +380,7 @@ double SandIsland::samplingError() const {
 
 std::size_t SandIsland::bytes() const noexcept {
   return sizeof(*this) - sizeof(grid_) - sizeof(sandbox_) + grid_.bytes() + sandbox_.bytes() +
+         reached_.bytes() + cells_.capacity() * sizeof(Opening::Cell) +
          ground_.samples().size() * sizeof(float);
 }
 

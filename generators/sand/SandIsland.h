@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "teren/DeformGrid.h"
 #include "teren/HeightMap.h"
@@ -23,26 +24,31 @@ struct SandPress {
   double height = 0.0;            ///< [m] of the mound
   double pushX = 0.0, pushY = 0.0;
   double dryAngle = kDryRepose, moisture = 0.0;
-  double reach = 0.0;  ///< [m]
+  double opens = 0.0;  ///< [m] how far ground is taken in at once
+  double reach = 0.0;  ///< [m] ... and how far it may be, where sand runs on
 };
 
 /// A triangulation (TIN) in the middle of the region's grid. Its lattice is the world's, level-0 spacing /
 /// 1024 a step; patch corners are whole squares of 1024 steps, so islands differ by whole steps. The lattice
 /// is 2^18 squares a side, with the first region in its middle: however the island grows, no point moves. It
-/// begins without any sand. Each stamp first takes the squares within its reach into the TIN, exactly as
-/// nodes draw them (Opening.h), as solid ground; vertices that are flat go from there to the clean-up's
+/// begins without any sand. Each stamp first takes the squares around it into the TIN, exactly as nodes draw
+/// them (Opening.h), as solid ground; vertices that are flat go from there to the clean-up's
 /// tolerance. What tools cut becomes loose, and only loose material slides (Sandbox.h).
 ///
 /// The fence around those squares keeps all others, and so the rim and the collar, as they are, bit for bit:
-/// sand that comes there lies against it as against a wall, and keeps its volume. Later stamps move the fence
-/// outwards. Where sand spreads, patches are nothing, nor is it to be seen that an island has grown; one that
-/// took others in goes on with their triangles, volumes, debts and waiting vertices (Merging.h).
+/// sand that comes there leans on it. Where it would slide on, the fence gives way at the end of the logical
+/// step, kRunOutCells squares far, within the reach of the stamps so far: three times as far as they take
+/// ground in, so that what is heaped on a steep slope runs down it. Only there it lies as against a wall, and
+/// keeps its volume; later stamps near by move that outwards. Where sand spreads, patches are nothing, nor is
+/// it to be seen that an island has grown; one that took others in goes on with their triangles, volumes,
+/// debts and waiting vertices (Merging.h).
 ///
 /// Steps: one takes kStepFaces faces to slide and then looks at kStepVertices vertices for the clean-up, or
 /// as many as wait. Sand comes to rest by itself, but among needles of rock that takes for ever; so a stamp
-/// brings 8 n^1.5 looks at faces, n squares in its reach, two to ten times what it takes on natural ground,
-/// and where they are used up sand lies as it lies until the next stamp touches it. All stamps together never
-/// have more than kMostLooks before them: sand is at rest within a million steps after the last of them.
+/// brings 8 n^1.5 looks at faces, n squares that it takes in and that sand runs out to, two to ten times what
+/// it takes on natural ground, and where they are used up sand lies as it lies until the next stamp touches
+/// it. All stamps together never have more than kMostLooks before them: sand is at rest within a million
+/// steps after the last of them.
 ///
 /// What is read from outside are the grid's samples, at the TIN's heights there; a sample that lies within
 /// tolerance() of the ground that the surface began with is that ground's. So ground on which nothing moved
@@ -59,6 +65,7 @@ class SandIsland final : public LiveSurface {
  public:
   static constexpr double kMostSpacings = 64.0;  ///< of a tool's size: more would be a million vertices
   static constexpr std::int32_t kStepsASpacing = 1024;
+  static constexpr int kRunOutCells = 2;
   static constexpr double kTolerance = 1.0 / 2048.0;  ///< [spacings]
   static constexpr std::uint64_t kStepFaces = 1024;
   static constexpr std::size_t kStepVertices = 256;
@@ -99,7 +106,11 @@ class SandIsland final : public LiveSurface {
  private:
   SandIsland(const DeformRegion& region, ConstHeightView ground);
 
+  void takeGroundIn(const Stamp& stamp, const SandPress& press);
+  void allowLooks(double looks);
   void work();
+  void findWayOut(LatticePoint corner);
+  bool runOut();
   void sample(TriangleId t);
   double volumeOverOpenSquares(double from) const;
   double volumeUnderSamples(double from) const;
@@ -109,9 +120,15 @@ class SandIsland final : public LiveSurface {
   DeformGrid grid_;
   Sandbox sandbox_;
   double poured_ = 0.0;
-  bool begun_ = false;  // a step, which is not done
+  OpenCells reached_;  // squares within the reach of stamps
+  std::vector<Opening::Cell> cells_;
+  std::size_t leanedSeen_ = 0;  // of the vertices that sand leans on, at the front
+  bool runsOut_ = false;        // squares have been opened in this step
+  bool begun_ = false;          // a step, which is not done
   std::uint64_t faces_ = 0;
-  std::uint64_t slidesUntil_ = 0;  // so many faces are looked at in all
+  std::uint64_t slidesUntil_ = 0;  // so many faces are looked at in all ...
+  std::uint64_t slidesMost_ = 0;   // ... and never more until the next stamp
+  double squares_ = 0.0;           // of the latest stamp, with those that sand ran out to since
   std::size_t vertices_ = 0;       // done of the step
   std::uint64_t steps_ = 0;
 };

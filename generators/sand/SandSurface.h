@@ -52,6 +52,7 @@ class SandSurface {
   void fence(const OpenCells& cells);
   const OpenCells& cells() const noexcept { return cells_; }
   void open(int column, int row) { cells_.open(column, row); }
+  void open(const OpenCells& other, int column, int row) { cells_.take(other, column, row); }
   /// OpenCells::grown. The corner of the squares has the place (0, 0) m, before and from then on.
   void grow(int west, int south, int columns, int rows);
   /// Whether a triangle lies in open squares: none lies on both sides of the fence.

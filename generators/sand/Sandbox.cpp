@@ -68,11 +68,12 @@ Result<StampReport> Sandbox::stamp(const ToolShape& tool, const StampPlace& plac
   return report;
 }
 
-void Sandbox::open(ConstHeightView ground, double x, double y, double distance) {
+void Sandbox::open(ConstHeightView ground, std::span<const Opening::Cell> cells) {
   slides_.forgetGone(surface_);  // slots that triangles outside may take now
-  opening_.enter(surface_, ground, x, y, distance);
+  opening_.enter(surface_, ground, cells);
   surface_.clearChanges();  // nobody has seen it, and it is solid
   for (const VertexId v : opening_.inside()) cleanUp_.add(v);
+  removable_ += opening_.inside().size();
   opening_.join(surface_);
   collectChanges(Phase::stamping);
 }
@@ -81,6 +82,7 @@ void Sandbox::take(const Sandbox& other, int column, int row) {
   assert(isDone() && other.isDone());
   const std::vector<VertexId> taken = mergeSand(surface_, other.surface_, column, row, stamper_.nextId() - 1);
   surface_.clearChanges();
+  slides_.takeLeanedOn(other.slides_, taken);
   cleanUp_.take(other.cleanUp_, taken);
   stamper_.take(other.stamper_, taken);
   removable_ = 0;

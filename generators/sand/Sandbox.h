@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "teren/Result.h"
 
@@ -52,8 +53,11 @@ class Sandbox {
 
   /// Presses a tool in; Stamper::stamp.
   Result<StampReport> stamp(const ToolShape& tool, const StampPlace& place);
-  /// Takes the squares of a grid of ground within a distance of a place [m] into a fenced box; Opening.h.
-  void open(ConstHeightView ground, double x, double y, double distance);
+  /// Takes closed squares of a grid of ground into a fenced box (Opening.h), and lets the clean-up have as
+  /// many vertices more as came.
+  void open(ConstHeightView ground, std::span<const Opening::Cell> cells);
+  /// Lets what leaned on the fence slide where it is gone; Slides::forgetLeanedOn.
+  void forgetLeanedOn() { slides_.forgetLeanedOn(surface_); }
   /// SandSurface::grow: nobody sees anything change.
   void grow(int west, int south, int columns, int rows) { surface_.grow(west, south, columns, rows); }
   /// Takes the sand of another box, at rest as this one is, into squares from (column, row) on; Merging.h.

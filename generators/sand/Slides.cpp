@@ -86,6 +86,22 @@ void Slides::forgetGone(const SandSurface& surface) {
   std::erase_if(next_, isGone);
 }
 
+void Slides::forgetLeanedOn(const SandSurface& surface) {
+  ChangeList left;
+  for (const VertexId v : leanedOn_.ids()) {
+    if (surface.isFixed(v)) {
+      left.add(v);
+    } else {
+      addAround(surface, v);
+    }
+  }
+  leanedOn_ = std::move(left);
+}
+
+void Slides::takeLeanedOn(const Slides& other, std::span<const VertexId> taken) {
+  for (const VertexId v : other.leanedOn_.ids()) leanedOn_.add(taken[v]);
+}
+
 void Slides::look(SandSurface& surface, TriangleId t) {
   Face face = surface.unweighedFace(t);
   const double slope = slopeOf(face, surface.step());
@@ -98,6 +114,9 @@ void Slides::look(SandSurface& surface, TriangleId t) {
     // Of what lies around a fixed corner some is outside, and must leave no trace.
     face[i].weight = face[i].isFixed ? orientation(face[0].place, face[1].place, face[2].place)
                                      : surface.weight(corners[i], stars_[i]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (face[i].isFixed && leansOn(face, i)) leanedOn_.add(corners[i]);
   }
   const auto move = slideFace(face, repose_, surface.step(), surface.ledger());
   if (!move || (slope > repose_.divide && divideEdges(surface, t, face))) return;
@@ -146,8 +165,8 @@ bool Slides::divideEdgesAt(SandSurface& surface, VertexId v) {
 }
 
 std::size_t Slides::bytes() const noexcept {
-  return sizeof(*this) + waiting_.bytes() + (now_.capacity() + next_.capacity()) * sizeof(TriangleId) +
-         far_.capacity() * sizeof(VertexId) +
+  return sizeof(*this) + waiting_.bytes() + leanedOn_.bytes() +
+         (now_.capacity() + next_.capacity()) * sizeof(TriangleId) + far_.capacity() * sizeof(VertexId) +
          (stars_[0].capacity() + stars_[1].capacity() + stars_[2].capacity()) * sizeof(TriangleId);
 }
 

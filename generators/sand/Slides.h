@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "generators/sand/ChangeList.h"
 #include "generators/sand/MarkSet.h"
 #include "generators/sand/Repose.h"
 #include "generators/sand/SandSurface.h"
@@ -56,6 +58,14 @@ class Slides {
   /// O(those that wait).
   void forgetGone(const SandSurface& surface);
 
+  /// Fixed vertices at which steep faces were seen that lean on them (FaceSlide.h), in the order of the first
+  /// time, until they are forgotten.
+  const ChangeList& leanedOn() const noexcept { return leanedOn_; }
+  /// Those that are no longer fixed; faces at them wait.
+  void forgetLeanedOn(const SandSurface& surface);
+  /// Those of other slides, which have become other vertices.
+  void takeLeanedOn(const Slides& other, std::span<const VertexId> taken);
+
   /// Whatever waits lies still, however steep, until it is added again.
   void stop() noexcept;
   bool atRest() const noexcept { return position_ == now_.size() && next_.empty(); }
@@ -79,8 +89,9 @@ class Slides {
   std::vector<TriangleId> now_;  // this sweep; from position_ on, they are still to be looked at
   std::size_t position_ = 0;
   std::vector<TriangleId> next_;  // the next sweep
-  std::vector<VertexId> far_;     // ends of edges to be divided
-  SandSurface::Stars stars_;      // of the face at hand
+  ChangeList leanedOn_;
+  std::vector<VertexId> far_;  // ends of edges to be divided
+  SandSurface::Stars stars_;   // of the face at hand
 };
 
 /// The steepest loose face: its slope as a tangent, 0 where there is none. O(n).

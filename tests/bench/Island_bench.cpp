@@ -41,7 +41,7 @@ Stamp stampAt(double east, double north, double size, double depth) {
 class Digging {
  public:
   explicit Digging(int squares) : random_(static_cast<std::uint64_t>(squares)) {
-    region_.columns = region_.rows = squares / region_.intervals;
+    region_.columns = region_.rows = (squares + 2 * kApron) / region_.intervals;
     HeightMap ground(region_.sampleColumns(), region_.sampleRows());
     for (int y = 0; y < ground.rows(); ++y) {
       for (int x = 0; x < ground.columns(); ++x)
@@ -50,7 +50,7 @@ class Digging {
     island_ = SandIsland::begin(region_, ground.view()).value();
     for (double north = kMargin; north <= side() - kMargin; north += 10.0) {
       for (double east = kMargin; east <= side() - kMargin; east += 10.0) {
-        (void)island_->apply(stampAt(east, north, 4.0, 1.0)).ok();
+        press(stampAt(east, north, 4.0, 1.0));
       }
     }
     island_->step(Slice::unlimited(), kEnd);
@@ -63,7 +63,7 @@ class Digging {
     };
     const double east = place(), north = place();
     const double begin = processorSeconds();
-    (void)island_->apply(stampAt(east, north, 6.0, 2.0)).ok();
+    press(stampAt(east, north, 6.0, 2.0));
     const double stamped = processorSeconds();
     island_->step(Slice::unlimited(), kEnd);
     const double slid = processorSeconds();
@@ -85,9 +85,16 @@ class Digging {
 
  private:
   static constexpr std::uint64_t kEnd = std::numeric_limits<std::uint64_t>::max();
-  static constexpr double kMargin = 36.0;
+  static constexpr int kApron = 32;                       // squares, to which sand might run
+  static constexpr double kMargin = 36.0 + 2.0 * kApron;  // [m]
 
   double side() const noexcept { return (region_.sampleColumns() - 1) * region_.spacing; }
+  void press(const Stamp& stamp) {
+    if (const Result<void> pressed = island_->apply(stamp); !pressed) {
+      std::fprintf(stderr, "bench-island: %s\n", pressed.error().message.c_str());
+      std::exit(1);
+    }
+  }
   void look() {
     const auto snapshot = island_->snapshot();
     const SampleRectangle changed = snapshot->changed();

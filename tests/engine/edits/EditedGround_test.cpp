@@ -335,13 +335,13 @@ TEST(EditedGround, GrowsOverWhatOtherKindsHaveLeft) {
 }
 
 TEST(EditedGround, MakesOneOfAllSurfacesOfItsKindInTheWay) {
-  constexpr DeformRegion kWest{-1, -1, 3, 3, 16, 4.0}, kEast{4, -1, 3, 3, 16, 4.0},
-      kBoth{-1, -2, 8, 5, 16, 4.0};
+  constexpr DeformRegion kWest{-3, -3, 7, 7, 16, 4.0}, kEast{5, -3, 7, 7, 16, 4.0},
+      kBoth{-3, -5, 15, 11, 16, 4.0};
   const DeformerSource source = deformersOf(PluginRegistry::standard());
   const DeformerKind sand = *source("sand");
   std::vector<Edit> edits = {{"sand", 30.0, 30.0, 0.0, 12.0, -8.0, 3, 0, {}},
-                             {"sand", 350.0, 30.0, 0.0, 12.0, -8.0, 4, 0, {}},
-                             {"sand", 190.5, 30.0, 0.0, 40.0, 4.0, 5, 0, {}}};
+                             {"sand", 542.0, 30.0, 0.0, 12.0, -8.0, 4, 0, {}},
+                             {"sand", 286.5, 30.0, 0.0, 40.0, 4.0, 5, 0, {}}};
   EditedGround ground(testWorld(), source);
   for (Edit& edit : edits) {
     edit.steps = ground.stepsSinceEdit();

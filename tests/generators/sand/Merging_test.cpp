@@ -22,19 +22,25 @@ SandSurface closedAt(LatticePoint corner) {
   return surface;
 }
 
-/// Rough ground on which sand was poured.
-Sandbox heap() {
+SandSettings settings() {
+  SandSettings settings;
+  settings.longestEdge = 2.0;
+  settings.flatness = 1e-3;
+  return settings;
+}
+
+/// Rough ground on which sand was poured, 18 m in front of a fence to the east, or so far less.
+Sandbox heap(double east = 0.0) {
   RandomSequence random(8);
   HeightMap ground(kSide + 1, kSide + 1);
   for (int y = 0; y <= kSide; ++y) {
     for (int x = 0; x <= kSide; ++x) ground(x, y) = 0.25F * static_cast<float>(random.nextBits(2));
   }
-  SandSettings settings;
-  settings.longestEdge = 2.0;
-  settings.flatness = 1e-3;
-  Sandbox box(closedAt({1 << 20, 1 << 20}), settings);
-  box.open(ground.view(), 24.0, 24.0, 18.0);
-  box.pour(25.0, 24.0, 6.0, 4.0);
+  Sandbox box(closedAt({1 << 20, 1 << 20}), settings());
+  std::vector<Opening::Cell> cells;
+  forEachCellWithin(box.surface(), 24.0, 24.0, 18.0, [&](Opening::Cell cell) { cells.push_back(cell); });
+  box.open(ground.view(), cells);
+  box.pour(25.0 + east, 24.0, 6.0, 4.0);
   while (!box.isDone()) box.iterate(1000);
   return box;
 }
@@ -87,6 +93,27 @@ TEST(Merging, KeepsTheIdsOfConstraintsApart) {
   });
   EXPECT_GT(compared, 30);
   EXPECT_EQ(surface.mesh().constraintCount(), box.surface().mesh().constraintCount());
+}
+
+TEST(Merging, RemembersWhereSandLeansOnTheFence) {
+  const auto corners = [](const Sandbox& box) {
+    std::vector<LatticePoint> found;
+    const LatticePoint first = box.surface().cells().corner();
+    for (const VertexId v : box.slides().leanedOn().ids()) {
+      EXPECT_TRUE(box.surface().isFixed(v));
+      const LatticePoint p = box.surface().mesh().point(v);
+      found.push_back({p.x - first.x, p.y - first.y});
+    }
+    return found;
+  };
+  EXPECT_TRUE(corners(heap()).empty());
+  const Sandbox other = heap(9.0);
+  Sandbox box(closedAt({7 << kShift, 9 << kShift}), settings());
+  box.take(other, 3, 5);
+  std::vector<LatticePoint> expected = corners(other);
+  EXPECT_GT(expected.size(), 3U);
+  for (LatticePoint& p : expected) p = {p.x + (3 << kShift), p.y + (5 << kShift)};
+  EXPECT_TRUE(corners(box) == expected);
 }
 
 }  // namespace

@@ -18,7 +18,12 @@
 namespace teren {
 namespace {
 
-constexpr DeformRegion kRegion{.columns = 4, .rows = 3, .intervals = 32, .spacing = 2.0};
+/// All regions have so much ground to the west and to the south of where stamps and heights are counted from,
+/// and as much to the east and to the north: sand may run far.
+constexpr double kApron = 128.0;
+constexpr int kApronSquares = 64, kApronPatches = 2;
+constexpr DeformRegion kRegion{
+    .columns = 4 + 2 * kApronPatches, .rows = 3 + 2 * kApronPatches, .intervals = 32, .spacing = 2.0};
 constexpr std::uint64_t kEnd = std::numeric_limits<std::uint64_t>::max();
 constexpr std::string_view kTools[] = {"round", "square", "rake", "wedge", "ball"};
 
@@ -29,8 +34,8 @@ Stamp stamp(double east, double north, double size, double depth,
                                         Parameter::real("direction", 0.0, 0.0, 360.0, "", ""),
                                         Parameter::real("repose", kDryRepose, 20.0, 45.0, "", ""),
                                         Parameter::real("moisture", 0.0, 0.0, 1.0, "", "")};
-  return {.east = east,
-          .north = north,
+  return {.east = east + kApron,
+          .north = north + kApron,
           .size = size,
           .depth = depth,
           .values = Values::check(table, set, "sand").value()};
@@ -40,7 +45,8 @@ template <class Height>
 HeightMap groundOf(const DeformRegion& region, Height height) {
   HeightMap map(region.sampleColumns(), region.sampleRows());
   for (int y = 0; y < map.rows(); ++y) {
-    for (int x = 0; x < map.columns(); ++x) map(x, y) = static_cast<float>(height(x, y));
+    for (int x = 0; x < map.columns(); ++x)
+      map(x, y) = static_cast<float>(height(x - kApronSquares, y - kApronSquares));
   }
   return map;
 }
@@ -50,8 +56,9 @@ HeightMap flat(const DeformRegion& region = kRegion) {
 }
 
 /// 50 degrees down to the east: steeper than sand lies.
-HeightMap steep() {
-  return groundOf(kRegion, [](int x, int) { return 200.0 - 1.2 * 2.0 * x; });
+HeightMap steep(const DeformRegion& region = kRegion) {
+  return groundOf(region,
+                  [&](int x, int) { return 200.0 - 1.2 * (2.0 * x + static_cast<double>(region.i) * 64.0); });
 }
 
 HeightMap noisy(double most) {
@@ -63,6 +70,10 @@ HeightMap noisy(double most) {
 double waves(int x, int y) {
   const auto tent = [](int n) { return std::abs((n & 31) - 16) / 16.0; };
   return 12.0 * tent(x + 3) + 7.0 * tent(y + 2 * x) + 0.5 * ((x * 7 + y * 13) & 3);
+}
+
+float at(const HeightMap& map, int x, int y) {
+  return map(x + kApronSquares, y + kApronSquares);
 }
 
 class Island {
@@ -175,10 +186,10 @@ TEST(SandIsland, GivesGroundThatItOnlyTookInBackBitForBit) {
       const double distance = std::hypot(2.0 * x - small.east, 2.0 * y - small.north);
       if (distance < 1.6 * small.size + 1.0) continue;  // what the tool and its berm touch
       ASSERT_EQ(after(x, y), ground(x, y)) << x << ", " << y;
-      same += distance < SandIsland::read(small, 2.0).value().reach;
+      same += distance < SandIsland::read(small, 2.0).value().opens;
     }
   }
-  EXPECT_GT(same, 30);  // within reach
+  EXPECT_GT(same, 30);  // of what was taken in
 }
 
 TEST(SandIsland, KeepsAllVolumeExactlyButWhatIsPoured) {
@@ -226,7 +237,7 @@ std::pair<double, double> changes(const HeightMap& ground, const HeightMap& afte
 }
 
 TEST(SandIsland, LosesOnlyTheSamplingErrorWhenItIsWrittenBack) {
-  const DeformRegion region{.columns = 5, .rows = 5, .intervals = 32, .spacing = 2.0};
+  const DeformRegion region{.columns = 9, .rows = 9, .intervals = 32, .spacing = 2.0};
   for (const auto& [size, bound] : {std::pair(4.0, 0.2), std::pair(12.0, 0.05), std::pair(24.0, 0.02)}) {
     const HeightMap ground = flat(region);
     Island island(ground, region);
@@ -252,7 +263,7 @@ TEST(SandIsland, TellsItsSamplingErrorOnTheTrianglesThatAreDrawn) {
 }
 
 TEST(SandIsland, SpreadsSandOverPatchBordersAsWithinPatches) {
-  const DeformRegion region{.columns = 6, .rows = 6, .intervals = 32, .spacing = 2.0};
+  const DeformRegion region{.columns = 10, .rows = 10, .intervals = 32, .spacing = 2.0};
   constexpr int kShift = 16;  // half a patch
   const HeightMap ground = groundOf(region, waves);
   const HeightMap shifted = groundOf(region, [](int x, int y) { return waves(x - kShift, y - kShift); });
@@ -276,13 +287,13 @@ TEST(SandIsland, SpreadsSandOverPatchBordersAsWithinPatches) {
   EXPECT_GT(changed, 300);
 }
 
-/// A region of which kRegion is a part, two patches more to the west, one to the south, others beyond.
-constexpr DeformRegion kLarge{.i = -2, .j = -1, .columns = 8, .rows = 6, .intervals = 32, .spacing = 2.0};
+/// A region of which kRegion is a part, six patches more to the west, one to the south, others beyond.
+constexpr DeformRegion kLarge{.i = -6, .j = -1, .columns = 16, .rows = 10, .intervals = 32, .spacing = 2.0};
 
 /// The waves of the large region, or the part of them that lies in kRegion.
 HeightMap wavesIn(const DeformRegion& region) {
   const int x0 = static_cast<int>(region.i) * 32, y0 = static_cast<int>(region.j) * 32;
-  return groundOf(region, [&](int x, int y) { return waves(x + x0 + 64, y + y0 + 64); });
+  return groundOf(region, [&](int x, int y) { return waves(x + x0, y + y0); });
 }
 
 using Corner = std::array<std::int64_t, 4>;  // x, y, height, loose
@@ -338,7 +349,7 @@ void play(Island& island, double east, double north, std::uint64_t seed) {
 }
 
 TEST(SandIsland, GoesOnAfterGrowingAsIfItHadBegunSo) {
-  constexpr double kEast = 128.0, kNorth = 64.0;  // of kRegion's corner in kLarge
+  constexpr double kEast = 384.0, kNorth = 64.0;  // of kRegion's corner in kLarge
   const HeightMap ground = wavesIn(kLarge);
   Island grown(wavesIn(kRegion)), large(ground, kLarge);
   play(grown, 120.0, 90.0, 5);
@@ -351,7 +362,7 @@ TEST(SandIsland, GoesOnAfterGrowingAsIfItHadBegunSo) {
   EXPECT_TRUE(test::sameBits(grown.heights().view(), large.heights().view()));
   // On the old rim, over the old island, and where nothing was.
   for (const auto& [east, north] :
-       {std::pair(130.0, 150.0), std::pair(240.0, 150.0), std::pair(400.0, 300.0)}) {
+       {std::pair(258.0, 150.0), std::pair(496.0, 150.0), std::pair(790.0, 300.0)}) {
     play(grown, east, north, 6);
     play(large, east, north, 6);
     EXPECT_EQ(grown->steps(), large->steps());
@@ -365,11 +376,11 @@ TEST(SandIsland, GoesOnAfterGrowingAsIfItHadBegunSo) {
 
 TEST(SandIsland, TakesGroundInWhileSandSlidesWhereverItsLatticeLies) {
   const auto after = [](int more) {
-    const DeformRegion region{.columns = 8 + more, .rows = 8 + more, .intervals = 8, .spacing = 2.0};
+    const DeformRegion region{.columns = 24 + more, .rows = 24 + more, .intervals = 8, .spacing = 2.0};
     RandomSequence random(64);
     HeightMap ground = flat(region);
-    for (int y = 0; y < 65; ++y) {
-      for (int x = 0; x < 65; ++x) ground(x, y) = static_cast<float>(0.5 * uniformAroundZero(random.next()));
+    for (int y = 0; y < 193; ++y) {
+      for (int x = 0; x < 193; ++x) ground(x, y) = static_cast<float>(0.5 * uniformAroundZero(random.next()));
     }
     Island island(ground, region);
     for (double north = 36.0; north <= 92.0; north += 10.0) {
@@ -379,7 +390,7 @@ TEST(SandIsland, TakesGroundInWhileSandSlidesWhereverItsLatticeLies) {
     return island.heights();
   };
   const HeightMap one = after(0), other = after(5);
-  EXPECT_TRUE(test::sameBits(one.view(), other.view().part(0, 0, 65, 65)));
+  EXPECT_TRUE(test::sameBits(one.view(), other.view().part(0, 0, 193, 193)));
 }
 
 TEST(SandIsland, KeepsItsLooseSandLooseWhenItGrows) {
@@ -390,21 +401,21 @@ TEST(SandIsland, KeepsItsLooseSandLooseWhenItGrows) {
     island.rest();
     const HeightMap before = island.heights();
     if (grows) island.grow(flat(kLarge), kLarge);
-    return std::pair(std::move(island), before(64, 48));
+    return std::pair(std::move(island), at(before, 64, 48));
   };
   auto [stays, height] = heap(false);
   auto [grown, same] = heap(true);
   EXPECT_EQ(height, same);
-  EXPECT_EQ(grown.heights()(64 + 64, 48 + 32), height);
+  EXPECT_EQ(at(grown.heights(), 64 + 192, 48 + 32), height);
   EXPECT_GT(steepestLooseSlope(grown.surface()), 0.8);
   EXPECT_EQ(steepestLooseSlope(grown.surface()), steepestLooseSlope(stays.surface()));
   // Drier sand beside it lets it slide; a hill of rock would stay.
   stays.press(stamp(136.0, 96.0, 4.0, 1.0, {{"repose", 20.0}}));
-  grown.press(stamp(136.0 + 128.0, 96.0 + 64.0, 4.0, 1.0, {{"repose", 20.0}}));
+  grown.press(stamp(136.0 + 384.0, 96.0 + 64.0, 4.0, 1.0, {{"repose", 20.0}}));
   stays.rest();
   grown.rest();
-  EXPECT_LT(grown.heights()(64 + 64, 48 + 32), height - 0.5F);
-  EXPECT_EQ(grown.heights()(64 + 64, 48 + 32), stays.heights()(64, 48));
+  EXPECT_LT(at(grown.heights(), 64 + 192, 48 + 32), height - 0.5F);
+  EXPECT_EQ(at(grown.heights(), 64 + 192, 48 + 32), at(stays.heights(), 64, 48));
 }
 
 TEST(SandIsland, GrowsAgainAndAgainToAllSides) {
@@ -424,7 +435,7 @@ TEST(SandIsland, GrowsAgainAndAgainToAllSides) {
   }
 }
 
-constexpr DeformRegion kBeside{.i = -2, .j = -1, .columns = 2, .rows = 6, .intervals = 32, .spacing = 2.0};
+constexpr DeformRegion kBeside{.i = -6, .j = -1, .columns = 6, .rows = 10, .intervals = 32, .spacing = 2.0};
 
 TEST(SandIsland, TakesAnotherOneInTriangleByTriangle) {
   const HeightMap ground = wavesIn(kLarge);
@@ -455,11 +466,11 @@ TEST(SandIsland, TakesAnotherOneInTriangleByTriangle) {
   EXPECT_TRUE(island->atRest());
   expectSound(island, ground);
   const HeightMap all = island.heights();
-  EXPECT_TRUE(test::sameBits(all.view().part(64, 32, here.columns(), here.rows()), here.view()));
+  EXPECT_TRUE(test::sameBits(all.view().part(192, 32, here.columns(), here.rows()), here.view()));
   EXPECT_TRUE(test::sameBits(all.view().part(0, 0, there.columns(), there.rows()), there.view()));
 
   // On the border between the two, and over what the other one had.
-  for (const double east : {128.0, 70.0}) play(island, east, 190.0, 9);
+  for (const double east : {256.0, 70.0}) play(island, east, 190.0, 9);
   EXPECT_TRUE(island.account() == account);
   EXPECT_FALSE(test::sameBits(island.heights().view(), all.view()));
   expectSound(island, ground);
@@ -471,7 +482,7 @@ TEST(SandIsland, GoesOnAfterMergingWhereverItsLatticeLies) {
     play(island, 120.0, 90.0, 5);
     play(other, 64.0, 190.0, 8);
     island.merge(other, wavesIn(kLarge), kLarge);
-    play(island, 128.0, 190.0, 9);
+    play(island, 256.0, 190.0, 9);
     return island.heights();
   };
   DeformRegion larger = kRegion;
@@ -492,7 +503,7 @@ TEST(SandIsland, CleansUpAfterMergingWhatWaitedInTheOtherOne) {
     one->rest();
   }
   island.merge(other, flat(kLarge), kLarge);
-  island.press(stamp(100.0 + 128.0, 96.0 + 64.0, 6.0, 1.0));
+  island.press(stamp(100.0 + 384.0, 96.0 + 64.0, 6.0, 1.0));
   island.rest();
   alone.press(stamp(100.0, 96.0, 6.0, 1.0));
   alone.rest();
@@ -511,7 +522,7 @@ TEST(SandIsland, RefusesToGrowBeyondItsLatticeOrOntoGroundThatItCannotHold) {
   const Result<void> beyond = island->grow(region, flat().view());
   ASSERT_FALSE(beyond.ok());
   EXPECT_EQ(beyond.error().message,
-            "sand cannot grow to a region of 131200 x 96 squares: its lattice of 262144 along a side ends "
+            "sand cannot grow to a region of 131328 x 224 squares: its lattice of 262144 along a side ends "
             "before");
   region.i = 0;
   region.columns = 8193;
@@ -531,8 +542,8 @@ TEST(SandIsland, LeavesLooseMaterialNoSteeperThanItLies) {
   EXPECT_GT(steepestLooseSlope(island.surface()), 0.5);
   EXPECT_LT(steepestLooseSlope(island.surface()), std::tan((kDryRepose + kReposeTolerance) / 57.295779513));
   const HeightMap after = island.heights();
-  EXPECT_LT(after(64, 48), 7.0F);
-  EXPECT_GT(after(64, 48), 2.0F);
+  EXPECT_LT(at(after, 64, 48), 7.0F);
+  EXPECT_GT(at(after, 64, 48), 2.0F);
 }
 
 TEST(SandIsland, KeepsFewVerticesWhereGroundIsFlat) {
@@ -540,16 +551,16 @@ TEST(SandIsland, KeepsFewVerticesWhereGroundIsFlat) {
   island.press(stamp(128.0, 96.0, 10.0, 5.0));
   const std::size_t before = island.surface().mesh().vertexCount();
   const SandPress press = SandIsland::read(stamp(0.0, 0.0, 10.0, 5.0), 2.0).value();
-  EXPECT_GT(static_cast<double>(before), 0.7 * press.reach * press.reach);  // 3.14 / 4 at least
+  EXPECT_GT(static_cast<double>(before), 0.7 * press.opens * press.opens);  // 3.14 / 4 at least
   island.rest();
   EXPECT_LT(island.surface().mesh().vertexCount(), 3 * before / 4);
   EXPECT_LE(island->tolerance(), 0.001);
 }
 
 TEST(SandIsland, CleansUpAllThatALargeGentleToolHasTakenIn) {
-  const DeformRegion region{.columns = 6, .rows = 6, .intervals = 32, .spacing = 2.0};
+  const DeformRegion region{.columns = 12, .rows = 12, .intervals = 32, .spacing = 2.0};
   Island island(flat(region), region);
-  island.press(stamp(192.0, 192.0, 60.0, 0.25));
+  island.press(stamp(256.0, 256.0, 60.0, 0.25));
   const std::size_t before = island.surface().mesh().vertexCount();
   island.rest();
   // The berm is round, and keeps half of them.
@@ -558,7 +569,7 @@ TEST(SandIsland, CleansUpAllThatALargeGentleToolHasTakenIn) {
 
 TEST(SandIsland, HasNeverMoreBeforeItThanItsStepsCanDo) {
   EXPECT_LE(2 * SandIsland::kMostLooks, kMostEditSteps * SandIsland::kStepFaces);
-  const DeformRegion region{.columns = 12, .rows = 12, .intervals = 32, .spacing = 2.0};
+  const DeformRegion region{.columns = 16, .rows = 16, .intervals = 32, .spacing = 2.0};
   Island island(flat(region), region);
   for (int count = 0; count < 24; ++count) {
     island.press(stamp(384.0, 384.0, 48.0, -24.0));
@@ -567,19 +578,140 @@ TEST(SandIsland, HasNeverMoreBeforeItThanItsStepsCanDo) {
   EXPECT_EQ(island->looksLeft(), SandIsland::kMostLooks);
 }
 
-TEST(SandIsland, LetsSandRestAgainstTheFenceOnSteepGround) {
+/// How high it lies above the ground, at most, between two distances from a place.
+float highestBetween(const HeightMap& ground, const HeightMap& after, const Stamp& from, double near,
+                     double far) {
+  float highest = 0.0F;
+  for (int y = 0; y < ground.rows(); ++y) {
+    for (int x = 0; x < ground.columns(); ++x) {
+      const double distance = std::hypot(2.0 * x - from.east, 2.0 * y - from.north);
+      if (near <= distance && distance < far) highest = std::max(highest, after(x, y) - ground(x, y));
+    }
+  }
+  return highest;
+}
+
+TEST(SandIsland, LetsSandRunDownSteepGroundAsFarAsItMay) {
   const HeightMap ground = steep();
   Island island(ground);
+  const SixfoldVolume before = island.account();
   const Stamp heap = stamp(100.0, 96.0, 8.0, -8.0);
+  const SandPress press = SandIsland::read(heap, 2.0).value();
+  EXPECT_EQ(press.reach, 3.0 * press.opens);
   island.press(heap);
+  EXPECT_GT(highestBetween(ground, island.heights(), heap, 0.0, 8.0), 7.0F);
+  EXPECT_EQ(highestBetween(ground, island.heights(), heap, press.opens, 1e9), 0.0F);
   island.rest();
   expectUntouchedBeyond(island, ground, heap);
-  EXPECT_TRUE(island->atRest());
-  // All of it has run down to the fence and lies there.
+  expectSound(island, ground);
+  EXPECT_TRUE(island.account() == before);
   const HeightMap after = island.heights();
+  EXPECT_LT(highestBetween(ground, after, heap, 0.0, press.opens + 8.0), 0.1F) << "nothing is in its way";
+  EXPECT_GT(highestBetween(ground, after, heap, press.reach - 20.0, press.reach), 1.0F)
+      << "all of it is here";
+  EXPECT_GT(island->looksLeft(), 0U);
+}
+
+/// 45 degrees down to a plain, `width` [m] east of a place.
+HeightMap hillside(double width) {
+  return groundOf(kRegion, [width](int x, int) { return std::max(0.0, 100.0 + width - 2.0 * x); });
+}
+
+TEST(SandIsland, LetsSandLieAtTheFootOfAHillAsSandLies) {
+  const HeightMap ground = hillside(60.0);
+  Island island(ground);
+  const Stamp heap = stamp(100.0, 96.0, 8.0, -8.0);
+  for (int count = 0; count < 6; ++count) island.press(heap);
+  island.rest();
+  const HeightMap after = island.heights();
+  const double opens = SandIsland::read(heap, 2.0).value().opens;
+  EXPECT_LT(opens, 60.0) << "it had to run on";
+  EXPECT_LT(highestBetween(ground, after, heap, 0.0, opens - 10.0), 0.1F);
+  EXPECT_GT(highestBetween(ground, after, heap, 45.0, 75.0), 2.0F);
+  double steepest = 0.0;
+  for (int y = 1; y < after.rows(); ++y) {
+    for (int x = 1; x < after.columns(); ++x) {
+      const float here = after(x, y);
+      steepest = std::max<double>(
+          {steepest, std::fabs(here - after(x - 1, y)) / 2.0, std::fabs(here - after(x, y - 1)) / 2.0});
+    }
+  }
+  EXPECT_LT(steepest, 1.25) << "there is no wall";
+  EXPECT_LT(steepestLooseSlope(island.surface()), std::tan((kDryRepose + kReposeTolerance) / 57.295779513));
+}
+
+/// How high sand of a heap lies anywhere down to so far [m] to the east of it, in a strip 40 m wide.
+float highestDownTo(const HeightMap& ground, Island& island, const Stamp& heap, double east) {
+  const HeightMap after = island.heights();
+  float highest = 0.0F;
+  for (int y = 0; y < ground.rows(); ++y) {
+    for (int x = 0; x < ground.columns(); ++x) {
+      const bool isInStrip = std::fabs(2.0 * y - heap.north) < 20.0 && 2.0 * x < heap.east + east;
+      if (isInStrip) highest = std::max(highest, after(x, y) - ground(x, y));
+    }
+  }
+  return highest;
+}
+
+TEST(SandIsland, LetsSandThatLeansOnTheFenceRunOnOnceAStampReachesFarther) {
+  for (const bool isTakenIn : {false, true}) {
+    Island island(steep(kBeside), kBeside), first(steep());
+    const Stamp heap = stamp(40.0, 190.0, 4.0, -4.0);
+    const double reach = SandIsland::read(heap, 2.0).value().reach;
+    island.press(heap);
+    island.rest();
+    ASSERT_GT(highestDownTo(steep(kBeside), island, heap, reach), 0.5F);
+    // Whatever is done elsewhere.
+    for (int count = 0; count < 4; ++count) {
+      island.press(stamp(40.0, 420.0, 2.0, 0.5));
+      island.rest();
+    }
+    if (isTakenIn) first.merge(island, steep(kLarge), kLarge);
+    Island& now = isTakenIn ? first : island;
+    // Far enough beside what leans there to touch nothing of it.
+    const Stamp beside = stamp(40.0 + reach - 5.0, 190.0 + 55.0, 8.0, 0.5);
+    ASSERT_LT(SandIsland::read(beside, 2.0).value().opens, 25.0);
+    now.press(beside);
+    now.rest();
+    EXPECT_LT(highestDownTo(steep(now.region()), now, heap, reach), 0.1F) << isTakenIn;
+  }
+}
+
+TEST(SandIsland, LetsSandRunOnWhereAToolCutsWhatItLeansOn) {
+  const HeightMap ground = steep();
+  Island island(ground);
+  const Stamp heap = stamp(40.0, 96.0, 4.0, -4.0);
   const double reach = SandIsland::read(heap, 2.0).value().reach;
-  const int fence = static_cast<int>((100.0 + reach) / 2.0) - 4;
-  EXPECT_GT(after(fence, 48), ground(fence, 48) + 0.1F);
+  island.press(heap);
+  island.rest();
+  ASSERT_GT(highestDownTo(ground, island, heap, reach), 0.5F);
+  island.press(stamp(40.0 + reach, 96.0, 8.0, 1.0));
+  island.rest();
+  EXPECT_LT(highestDownTo(ground, island, heap, reach), 0.1F);
+  expectSound(island, ground);
+}
+
+TEST(SandIsland, LetsSandRunAsFarAsAnyStampBeforeReaches) {
+  // So damp that it stays where it is, and the fence with it.
+  const auto wide = [](double east, double north) {
+    return stamp(east, north, 14.0, -0.125, {{"repose", 45.0}, {"moisture", 1.0}});
+  };
+  Island island(steep()), other(steep(kBeside), kBeside);
+  island.press(wide(60.0, 96.0));
+  island.rest();
+  other.press(wide(40.0, 190.0));
+  other.rest();
+  const HeightMap ground = steep(kLarge);
+  island.merge(other, ground, kLarge);
+  // What it had itself, and has kept where it has grown; and what the other one had.
+  for (const Stamp& heap : {stamp(60.0 + 384.0, 96.0 + 64.0, 4.0, -4.0), stamp(40.0, 190.0, 4.0, -4.0)}) {
+    const double reach = SandIsland::read(wide(0.0, 0.0), 2.0).value().reach;
+    ASSERT_GT(reach, SandIsland::read(heap, 2.0).value().reach + 20.0);
+    island.press(heap);
+    island.rest();
+    EXPECT_LT(highestDownTo(ground, island, heap, reach - 16.0), 0.2F);
+    EXPECT_GT(highestDownTo(ground, island, heap, reach), 0.5F);
+  }
 }
 
 TEST(SandIsland, ComesToRestAmongNeedles) {
@@ -634,7 +766,7 @@ TEST(SandIsland, LetsTheAngleOfReposeHoldForWhatMovesFromThenOn) {
     Island island(flat());
     island.press(stamp(128.0, 96.0, 8.0, -8.0, {{"repose", repose}, {"moisture", moisture}}));
     island.rest();
-    return island.heights()(64, 48);
+    return at(island.heights(), 64, 48);
   };
   EXPECT_LT(top(20.0, 0.0), top(30.0, 0.0));
   EXPECT_LT(top(30.0, 0.0), top(30.0, 1.0));
@@ -642,10 +774,10 @@ TEST(SandIsland, LetsTheAngleOfReposeHoldForWhatMovesFromThenOn) {
   Island island(flat());
   island.press(stamp(90.0, 96.0, 6.0, -6.0, {{"repose", 45.0}}));
   island.rest();
-  const float before = island.heights()(45, 48);
+  const float before = at(island.heights(), 45, 48);
   island.press(stamp(190.0, 96.0, 4.0, -4.0, {{"repose", 20.0}}));
   island.rest();
-  EXPECT_EQ(island.heights()(45, 48), before);
+  EXPECT_EQ(at(island.heights(), 45, 48), before);
 }
 
 TEST(SandIsland, RefusesWithASentenceWhatItCannotDo) {
