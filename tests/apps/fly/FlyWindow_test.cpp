@@ -60,8 +60,8 @@ class FlyWindowKeys : public testing::Test {
     const std::size_t end = window_->frameTimes().count() + static_cast<std::size_t>(frames);
     while (window_->frameTimes().count() < end) QApplication::processEvents();
   }
-  /// Until it is so, without drawing: where that alone takes longer than a frame, as it does under sanitizers,
-  /// the land has next to nothing of one.
+  /// Until it is so, without drawing: where that alone takes longer than a frame, as it does under
+  /// sanitizers, the land has next to nothing of one.
   void standUnseenUntil(const std::function<bool()>& isSo) {
     fly(1);  // what was pressed takes effect in a frame
     for (int turn = 0; turn < 5000 && !isSo(); ++turn) {
