@@ -1,5 +1,5 @@
-// A set of squares of a grid of level 0: those that are sand by now, while all others are ground that must
-// not move.
+// Which squares of a grid of level 0 are open: sand by now, or, in another set of them, ground that may
+// become sand. All others are ground that must not move.
 #pragma once
 
 #include <cstddef>

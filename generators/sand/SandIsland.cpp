@@ -185,14 +185,19 @@ void SandIsland::takeGroundIn(const Stamp& stamp, const SandPress& press) {
   leanedSeen_ = 0;  // more may give way now
   const double across = press.opens / grid_.region().spacing;
   squares_ = std::numbers::pi * across * across;
-  const std::uint64_t done = sandbox_.slides().count().steps;
-  slidesUntil_ = done + looksLeft();
-  slidesMost_ = done + kMostLooks;
-  allowLooks(kLooks * squares_ * std::sqrt(squares_));
+  limitLooks();
+  allowLooks(static_cast<std::uint64_t>(kLooks * squares_ * std::sqrt(squares_)));
 }
 
-void SandIsland::allowLooks(double looks) {
-  slidesUntil_ = std::min(slidesUntil_ + static_cast<std::uint64_t>(looks), slidesMost_);
+/// From now on there are no more of them than there ever may be at once.
+void SandIsland::limitLooks() {
+  const std::uint64_t done = sandbox_.slides().count().steps;
+  slidesUntil_ = std::max(slidesUntil_, done);
+  slidesMost_ = done + kMostLooks;
+}
+
+void SandIsland::allowLooks(std::uint64_t looks) {
+  slidesUntil_ = std::min(slidesUntil_ + looks, slidesMost_);
 }
 
 std::uint64_t SandIsland::looksLeft() const noexcept {
@@ -253,7 +258,8 @@ bool SandIsland::runOut() {
     if (cells_.empty()) continue;
     sandbox_.open(ground_.view(), cells_);
     const double more = static_cast<double>(cells_.size());
-    allowLooks(1.5 * kLooks * std::sqrt(squares_) * more);  // what n^1.5 grows by
+    // What n^1.5 grows by.
+    allowLooks(static_cast<std::uint64_t>(1.5 * kLooks * std::sqrt(squares_) * more));
     squares_ += more;
     return runsOut_ = true;
   }
@@ -305,9 +311,8 @@ void SandIsland::take(SandIsland& other) {
   const SampleRectangle place = grid_.region().placeOf(other.grid_.region());
   sandbox_.take(other.sandbox_, place.column, place.row);
   reached_.take(other.reached_, place.column, place.row);
-  const std::uint64_t left = looksLeft() + other.looksLeft();
-  slidesMost_ = sandbox_.slides().count().steps + kMostLooks;
-  slidesUntil_ = std::min(sandbox_.slides().count().steps + left, slidesMost_);
+  limitLooks();
+  allowLooks(other.looksLeft());
   poured_ += other.poured_;
 }
 

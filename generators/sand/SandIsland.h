@@ -38,10 +38,10 @@ struct SandPress {
 /// The fence around those squares keeps all others, and so the rim and the collar, as they are, bit for bit:
 /// sand that comes there leans on it. Where it would slide on, the fence gives way at the end of the logical
 /// step, kRunOutCells squares far, within the reach of the stamps so far: three times as far as they take
-/// ground in, so that what is heaped on a steep slope runs down it. Only there it lies as against a wall, and
-/// keeps its volume; later stamps near by move that outwards. Where sand spreads, patches are nothing, nor is
-/// it to be seen that an island has grown; one that took others in goes on with their triangles, volumes,
-/// debts and waiting vertices (Merging.h).
+/// ground in, or 96 spacings farther where that is less, so that what is heaped on a steep slope runs down
+/// it. Only there it lies as against a wall, and keeps its volume; later stamps near by move that outwards.
+/// Where sand spreads, patches are nothing, nor is it to be seen that an island has grown; one that took
+/// others in goes on with their triangles, volumes, debts and waiting vertices (Merging.h).
 ///
 /// Steps: one takes kStepFaces faces to slide and then looks at kStepVertices vertices for the clean-up, or
 /// as many as wait. Sand comes to rest by itself, but among needles of rock that takes for ever; so a stamp
@@ -107,7 +107,8 @@ class SandIsland final : public LiveSurface {
   SandIsland(const DeformRegion& region, ConstHeightView ground);
 
   void takeGroundIn(const Stamp& stamp, const SandPress& press);
-  void allowLooks(double looks);
+  void limitLooks();
+  void allowLooks(std::uint64_t looks);
   void work();
   void findWayOut(LatticePoint corner);
   bool runOut();

@@ -62,10 +62,10 @@ class FlyWindowKeys : public testing::Test {
   }
   /// Until it is so, without drawing: where that alone takes longer than a frame, as it does under
   /// sanitizers, the land has next to nothing of one.
-  void standUnseenUntil(const std::function<bool()>& isSo) {
+  void flyUnseenUntil(const std::function<bool()>& isSo) {
     fly(1);  // what was pressed takes effect in a frame
     for (int turn = 0; turn < 5000 && !isSo(); ++turn) {
-      flight_->advance(0.0);
+      flight_->advance(window_->isFrozen() ? 0.0 : 1.0 / 60.0);
       flight_->frameDone();
     }
     ASSERT_TRUE(isSo());
@@ -127,7 +127,8 @@ TEST_F(FlyWindowDetail, IsChosenByKeysWhileItFlies) {
   EXPECT_EQ(detail()->distance, 2000.0);
   const std::size_t coarse = flight_->engine().figures().triangles;
   for (int turn = 0; turn < 10; ++turn) tap(Qt::Key_Plus);
-  standUnseenUntil([&] { return flight_->engine().figures().triangles > coarse; });
+  flyUnseenUntil(
+      [&] { return flight_->engine().figures().triangles > coarse; });  // it takes effect in flight
   EXPECT_EQ(detail()->lines, 200.0) << "the picture's own numbers stay";
 }
 
@@ -167,9 +168,7 @@ TEST_F(FlyWindowDetail, KeepsWhatWasChosenOnOtherLand) {
         Engine::create(*world, {.view = {.detail = DetailSettings{.pixelError = 64.0, .distance = 1000.0}}});
     flight_->goOverTo(std::move(*engine));
   };
-  const auto arrive = [this](int changes) {
-    standUnseenUntil([&] { return flight_->changes() == changes; });
-  };
+  const auto arrive = [this](int changes) { flyUnseenUntil([&] { return flight_->changes() == changes; }); };
   for (int turn = 0; turn < 4; ++turn) tap(Qt::Key_Minus);
   goOver();
   arrive(1);
@@ -221,7 +220,7 @@ TEST_F(FlyWindowDetail, StaysAsItIsWhileTheCameraFliesOffAlone) {
     return figures.pending > 0 || figures.measuring;
   };
   fly(5);
-  standUnseenUntil([&] { return !isBusy(); });  // then it is made for the eye left behind
+  flyUnseenUntil([&] { return !isBusy(); });  // then it is made for the eye left behind
   const auto scene = flight_->engine().scene();
   const Viewpoint begin = window_->viewpoint();
   const Motion before = aircraft(0).motion();

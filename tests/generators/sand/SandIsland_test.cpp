@@ -24,6 +24,8 @@ constexpr double kApron = 128.0;
 constexpr int kApronSquares = 64, kApronPatches = 2;
 constexpr DeformRegion kRegion{
     .columns = 4 + 2 * kApronPatches, .rows = 3 + 2 * kApronPatches, .intervals = 32, .spacing = 2.0};
+/// What loose faces at rest are promised to be less steep than, as a tangent.
+const double kSteepestSand = std::tan((kDryRepose + kReposeTolerance) / 57.295779513);
 constexpr std::uint64_t kEnd = std::numeric_limits<std::uint64_t>::max();
 constexpr std::string_view kTools[] = {"round", "square", "rake", "wedge", "ball"};
 
@@ -237,7 +239,8 @@ std::pair<double, double> changes(const HeightMap& ground, const HeightMap& afte
 }
 
 TEST(SandIsland, LosesOnlyTheSamplingErrorWhenItIsWrittenBack) {
-  const DeformRegion region{.columns = 9, .rows = 9, .intervals = 32, .spacing = 2.0};
+  const DeformRegion region{
+      .columns = 5 + 2 * kApronPatches, .rows = 5 + 2 * kApronPatches, .intervals = 32, .spacing = 2.0};
   for (const auto& [size, bound] : {std::pair(4.0, 0.2), std::pair(12.0, 0.05), std::pair(24.0, 0.02)}) {
     const HeightMap ground = flat(region);
     Island island(ground, region);
@@ -263,7 +266,8 @@ TEST(SandIsland, TellsItsSamplingErrorOnTheTrianglesThatAreDrawn) {
 }
 
 TEST(SandIsland, SpreadsSandOverPatchBordersAsWithinPatches) {
-  const DeformRegion region{.columns = 10, .rows = 10, .intervals = 32, .spacing = 2.0};
+  const DeformRegion region{
+      .columns = 6 + 2 * kApronPatches, .rows = 6 + 2 * kApronPatches, .intervals = 32, .spacing = 2.0};
   constexpr int kShift = 16;  // half a patch
   const HeightMap ground = groundOf(region, waves);
   const HeightMap shifted = groundOf(region, [](int x, int y) { return waves(x - kShift, y - kShift); });
@@ -540,7 +544,7 @@ TEST(SandIsland, LeavesLooseMaterialNoSteeperThanItLies) {
   island.press(stamp(128.0, 96.0, 8.0, -8.0));
   island.rest();
   EXPECT_GT(steepestLooseSlope(island.surface()), 0.5);
-  EXPECT_LT(steepestLooseSlope(island.surface()), std::tan((kDryRepose + kReposeTolerance) / 57.295779513));
+  EXPECT_LT(steepestLooseSlope(island.surface()), kSteepestSand);
   const HeightMap after = island.heights();
   EXPECT_LT(at(after, 64, 48), 7.0F);
   EXPECT_GT(at(after, 64, 48), 2.0F);
@@ -578,17 +582,25 @@ TEST(SandIsland, HasNeverMoreBeforeItThanItsStepsCanDo) {
   EXPECT_EQ(island->looksLeft(), SandIsland::kMostLooks);
 }
 
-/// How high it lies above the ground, at most, between two distances from a place.
-float highestBetween(const HeightMap& ground, const HeightMap& after, const Stamp& from, double near,
-                     double far) {
+/// How high it lies above the ground, at most, where `isThere` says so of a place [m].
+template <class IsThere>
+float highestWhere(const HeightMap& ground, const HeightMap& after, const IsThere& isThere) {
   float highest = 0.0F;
   for (int y = 0; y < ground.rows(); ++y) {
     for (int x = 0; x < ground.columns(); ++x) {
-      const double distance = std::hypot(2.0 * x - from.east, 2.0 * y - from.north);
-      if (near <= distance && distance < far) highest = std::max(highest, after(x, y) - ground(x, y));
+      if (isThere(2.0 * x, 2.0 * y)) highest = std::max(highest, after(x, y) - ground(x, y));
     }
   }
   return highest;
+}
+
+/// Between two distances from a stamp.
+float highestBetween(const HeightMap& ground, const HeightMap& after, const Stamp& from, double near,
+                     double far) {
+  return highestWhere(ground, after, [&](double east, double north) {
+    const double distance = std::hypot(east - from.east, north - from.north);
+    return near <= distance && distance < far;
+  });
 }
 
 TEST(SandIsland, LetsSandRunDownSteepGroundAsFarAsItMay) {
@@ -637,20 +649,14 @@ TEST(SandIsland, LetsSandLieAtTheFootOfAHillAsSandLies) {
     }
   }
   EXPECT_LT(steepest, 1.25) << "there is no wall";
-  EXPECT_LT(steepestLooseSlope(island.surface()), std::tan((kDryRepose + kReposeTolerance) / 57.295779513));
+  EXPECT_LT(steepestLooseSlope(island.surface()), kSteepestSand);
 }
 
-/// How high sand of a heap lies anywhere down to so far [m] to the east of it, in a strip 40 m wide.
-float highestDownTo(const HeightMap& ground, Island& island, const Stamp& heap, double east) {
-  const HeightMap after = island.heights();
-  float highest = 0.0F;
-  for (int y = 0; y < ground.rows(); ++y) {
-    for (int x = 0; x < ground.columns(); ++x) {
-      const bool isInStrip = std::fabs(2.0 * y - heap.north) < 20.0 && 2.0 * x < heap.east + east;
-      if (isInStrip) highest = std::max(highest, after(x, y) - ground(x, y));
-    }
-  }
-  return highest;
+/// Anywhere down to so far [m] to the east of a heap, in a strip 40 m wide.
+float highestDownTo(const HeightMap& ground, Island& island, const Stamp& heap, double far) {
+  return highestWhere(ground, island.heights(), [&](double east, double north) {
+    return std::fabs(north - heap.north) < 20.0 && east < heap.east + far;
+  });
 }
 
 TEST(SandIsland, LetsSandThatLeansOnTheFenceRunOnOnceAStampReachesFarther) {
