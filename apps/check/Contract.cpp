@@ -35,7 +35,7 @@ std::span<const Property* const> contract(PluginKind kind) {
       makeMargins(),     makeCancellation(), makeMemory(), makeAllocation()};
   static const PropertyPointer ofDeformers[] = {
       makeStamps(),  makeStepSlicing(), makeSurfaces(), makeStepLength(), makeCollar(), makeHeights(),
-      makeChanged(), makeSnapshots(),   makeHostile(),  makeBytes(),      makeGrowth()};
+      makeChanged(), makeSnapshots(),   makeHostile(),  makeBytes(),      makeGrowth(), makeLoose()};
   static const std::vector<const Property*> mapContract = pointersTo(ofMaps);
   static const std::vector<const Property*> deformerContract = pointersTo(ofDeformers);
   return kind == PluginKind::deformer ? deformerContract : mapContract;

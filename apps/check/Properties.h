@@ -41,5 +41,6 @@ PropertyPointer makeSnapshots();
 PropertyPointer makeBytes();
 PropertyPointer makeStepLength();
 PropertyPointer makeGrowth();
+PropertyPointer makeLoose();
 
 }  // namespace teren::check

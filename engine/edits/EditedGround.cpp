@@ -19,6 +19,7 @@
 #include "edits/GroundCheckpoint.h"
 #include "edits/GroundOverrides.h"
 #include "edits/GroundSnapshot.h"
+#include "edits/LooseLayer.h"
 #include "edits/PatchRectangle.h"
 #include "height/Surface.h"
 #include "patch/NodeTask.h"
@@ -165,6 +166,7 @@ class EditedGround::State {
         deformers_(std::move(deformers)),
         maps_(kGroundMapBytes),
         overrides_(world.intervals()),
+        loose_(world.intervals()),
         mark_(EditListMark::ofNone(hashOf(world))) {}
 
   Result<PlacedEdit> place(const Edit& edit) const;
@@ -203,6 +205,8 @@ class EditedGround::State {
   Result<void> runToRest(Live& live, const EditWork& work) const;
   Result<void> write(Live& live);
   Result<void> noteEnd(const Live& live);
+  Result<void> lay(Live& live) const;
+  Result<void> keepLoose(const Live& live);
   Result<Room> clear(const PlacedEdit& edit, const EditWork& work);
   Result<bool> extend(std::span<Live* const> living, const PatchRectangle& patches,
                       const HeightMap& ground) const;
@@ -215,6 +219,7 @@ class EditedGround::State {
   DeformerSource deformers_;
   BaseMapStore maps_;
   GroundOverrides overrides_;
+  LooseLayer loose_;
   bool isPause() const noexcept { return mark_.edits % kMostEditsTogether == 0; }
   void keepCheckpoint();
 
@@ -335,8 +340,49 @@ Result<void> EditedGround::State::write(Live& live) {
   return {};
 }
 
+/// Tells a surface that has begun or grown how much of its ground the ones before it left loose.
+Result<void> EditedGround::State::lay(Live& live) const {
+  const DeformRegion region = regionOf(live.patches);
+  HeightMap depths(region.sampleColumns(), region.sampleRows());
+  const std::int64_t n = region.intervals;
+  if (!loose_.overlay(region.i * n, region.j * n, depths.view())) return {};
+  const ConstHeightView all = std::as_const(depths).view();
+  const auto laid = guarded(live.kind, [&] { return live.surface->layLoose(all), true; });
+  if (!laid) return laid.error();
+  return {};
+}
+
+/// Keeps how much a surface that ends leaves loose: where it does not know, what it has changed is solid.
+Result<void> EditedGround::State::keepLoose(const Live& live) {
+  const DeformRegion region = regionOf(live.patches);
+  const std::int64_t column = region.i * region.intervals, row = region.j * region.intervals;
+  HeightMap depths(region.sampleColumns(), region.sampleRows());
+  const auto knows = guarded(live.kind, [&] { return live.surface->loose(depths.view()); });
+  if (!knows) return knows.error();
+  if (*knows) {
+    const auto all = depths.samples();
+    if (!std::all_of(all.begin(), all.end(),
+                     [](float depth) { return depth >= 0.0F && std::isfinite(depth); }))
+      return Error{"the deformer " + inQuotes(live.kind) + " tells a depth of loose ground that is none"};
+  } else {
+    if (!loose_.overlay(column, row, depths.view())) return {};
+    HeightMap now(live.ground);
+    overrides_.overlay(GroundOverrides::Over::earlier, 0, column, row, now.view());
+    for (int y = 0; y < now.rows(); ++y) {
+      for (int x = 0; x < now.columns(); ++x) {
+        if (now(x, y) != live.ground(x, y)) depths(x, y) = 0.0F;
+      }
+    }
+  }
+  const SampleRectangle part = region.changeable();
+  loose_.take(column + part.column, row + part.row,
+              std::as_const(depths).view().part(part.column, part.row, part.columns, part.rows));
+  return {};
+}
+
 /// Of a surface that is written, before it goes.
 Result<void> EditedGround::State::noteEnd(const Live& live) {
+  if (Result<void> kept = keepLoose(live); !kept) return kept;
   const auto error = guarded(live.kind, [&] { return live.surface->samplingError(); });
   if (!error) return error.error();
   if (!std::isfinite(*error)) {
@@ -451,7 +497,10 @@ Result<Live*> EditedGround::State::surfaceFor(const PlacedEdit& edit, const Edit
   if (!ground) return ground.error();
   const Result<Live*> joined = joinedIn(*room, *ground);
   if (!joined) return joined.error();
-  if (*joined != nullptr) return *joined;
+  if (*joined != nullptr) {
+    if (Result<void> laid = lay(**joined); !laid) return laid.error();
+    return *joined;
+  }
   Live live{edit.kind, edit.deformer, room->patches, *std::move(ground), nullptr};
   const ConstHeightView heights = live.ground.view();
   auto begun = guarded(edit.kind, [&] { return edit.deformer->begin(regionOf(room->patches), heights); });
@@ -459,6 +508,7 @@ Result<Live*> EditedGround::State::surfaceFor(const PlacedEdit& edit, const Edit
   if (!*begun) return begun->error();
   if (**begun == nullptr) return Error{"the deformer " + inQuotes(edit.kind) + " began no surface"};
   live.surface = std::move(**begun);
+  if (Result<void> laid = lay(live); !laid) return laid.error();
   live_.push_back(std::move(live));
   return &live_.back();
 }
@@ -508,7 +558,7 @@ Result<void> EditedGround::State::rest(const EditWork& work) {
 void EditedGround::State::keepCheckpoint() {
   const std::uint64_t edits = mark_.edits;
   if (edits == 0 || (!checkpoints_.empty() && checkpoints_.back()->mark().edits == edits)) return;
-  checkpoints_.push_back(std::make_shared<const GroundCheckpoint>(mark_, ended_, overrides_.share()));
+  checkpoints_.push_back(std::make_shared<const GroundCheckpoint>(mark_, ended_, overrides_.share(), loose_));
   std::erase_if(checkpoints_, [edits](const auto& checkpoint) {
     const std::uint64_t pause = checkpoint->mark().edits / kMostEditsTogether;
     const std::uint64_t back = edits / kMostEditsTogether - pause;
@@ -522,10 +572,12 @@ std::size_t EditedGround::State::goBack(std::size_t edits) {
     mark_ = EditListMark::ofNone(hashOf(world_));
     ended_ = {};
     overrides_ = GroundOverrides(world_.intervals());
+    loose_ = LooseLayer(world_.intervals());
   } else {
     mark_ = checkpoints_.back()->mark();
     ended_ = checkpoints_.back()->ended();
     overrides_ = checkpoints_.back()->overrides();
+    loose_ = checkpoints_.back()->loose();
   }
   live_.clear();
   resting_ = true;
@@ -568,7 +620,7 @@ std::uint64_t EditedGround::State::stepsSinceEdit() const noexcept {
 }
 
 std::size_t EditedGround::State::bytes() const {
-  std::size_t sum = overrides_.bytes();
+  std::size_t sum = overrides_.bytes() + loose_.bytes();
   for (const auto& checkpoint : checkpoints_) sum += checkpoint->bytes();
   for (const Live& live : live_) sum += sizeof(live) + live.ground.bytes() + live.surface->bytes();
   return sum;

@@ -13,6 +13,7 @@
 #include "teren/Result.h"
 
 #include "edits/GroundOverrides.h"
+#include "edits/LooseLayer.h"
 
 namespace teren {
 
@@ -30,19 +31,22 @@ struct EditListMark {
 /// Immutable.
 class GroundCheckpoint {
  public:
-  GroundCheckpoint(const EditListMark& mark, const EndedSurfaces& ended, GroundOverrides overrides)
-      : mark_(mark), ended_(ended), overrides_(std::move(overrides)) {}
+  GroundCheckpoint(const EditListMark& mark, const EndedSurfaces& ended, GroundOverrides overrides,
+                   LooseLayer loose)
+      : mark_(mark), ended_(ended), overrides_(std::move(overrides)), loose_(std::move(loose)) {}
 
   const EditListMark& mark() const noexcept { return mark_; }
   const EndedSurfaces& ended() const noexcept { return ended_; }
   int intervals() const noexcept { return overrides_.intervals(); }
   /// Shared with the checkpoint.
   GroundOverrides overrides() const { return overrides_.shared(); }
-  std::size_t bytes() const noexcept { return overrides_.bytes(); }
+  const LooseLayer& loose() const noexcept { return loose_; }
+  std::size_t bytes() const noexcept { return overrides_.bytes() + loose_.bytes(); }
 
-  /// As bytes, little-endian, and back: 28, 20 a patch, 12 a sample that is not the world's own. What was
-  /// not written by `text` is refused, or read as some other ground: who stores it adds a checksum. Ground of
-  /// more than kMostBytes is refused before it takes any.
+  /// As bytes, little-endian, and back: 36, 20 a patch with samples that are not the world's own and 12 for
+  /// each of those, then 20 a patch with loose ones and 8 for each. What was not written by `text` is
+  /// refused, or read as some other ground: who stores it adds a checksum. Ground of more than kMostBytes is
+  /// refused before it takes any.
   static constexpr std::size_t kMostBytes = std::size_t{1} << 31;
   std::string text() const;
   static Result<GroundCheckpoint> read(const EditListMark& mark, std::string_view text);
@@ -51,6 +55,7 @@ class GroundCheckpoint {
   EditListMark mark_;
   EndedSurfaces ended_;
   GroundOverrides overrides_;
+  LooseLayer loose_;
 };
 
 }  // namespace teren

@@ -84,7 +84,18 @@ void Opening::forgetPast(SandSurface& surface) {
   }
 }
 
-void Opening::enter(SandSurface& surface, ConstHeightView ground, std::span<const Cell> cells) {
+/// What was the fence's until now bears nothing yet, either.
+void Opening::loosen(SandSurface& surface, ConstHeightView loose) const {
+  if (loose.empty()) return;
+  for (const VertexId v : inside_) {
+    const LatticePoint p = surface.mesh().point(v);
+    const float depth = loose(surface.cells().columnOf(p.x), surface.cells().rowOf(p.y));
+    surface.loosen(v, ticksFromMetres(depth));
+  }
+}
+
+void Opening::enter(SandSurface& surface, ConstHeightView ground, ConstHeightView loose,
+                    std::span<const Cell> cells) {
   assert(surface.cells().hasFence());
   inside_.clear();
   cells_.clear();
@@ -97,6 +108,7 @@ void Opening::enter(SandSurface& surface, ConstHeightView ground, std::span<cons
   for (const VertexId v : vertices_) {
     if (v != kNoVertex && !surface.isFixed(v)) inside_.push_back(v);
   }
+  loosen(surface, loose);
 }
 
 void Opening::join(SandSurface& surface) {

@@ -14,11 +14,11 @@
 
 namespace teren {
 
-/// The squares' samples become vertices at their heights, solid, and their diagonals run from south-west to
-/// north-east as nodes draw them, so what enters is the grid's surface without an error. Edges between open
-/// and closed squares are constrained with kFenceId and fixed at both ends: whatever happens inside moves
-/// nothing outside, where triangles mean nothing but to fill the box. What lies outside, and where the
-/// squares lie in the box, leaves no trace inside, not in the order of anything.
+/// The squares' samples become vertices at their heights, solid but for what is told, and their diagonals run
+/// from south-west to north-east as nodes draw them, so what enters is the grid's surface without an error.
+/// Edges between open and closed squares are constrained with kFenceId and fixed at both ends: whatever
+/// happens inside moves nothing outside, where triangles mean nothing but to fill the box. What lies outside,
+/// and where the squares lie in the box, leaves no trace inside, not in the order of anything.
 ///
 /// Heights are rounded to ticks: exact from 2^-15 m upwards, and elsewhere 2^-39 m off. O(squares that come,
 /// and the rectangle around the disc).
@@ -29,8 +29,10 @@ class Opening {
   struct Cell {
     int column = 0, row = 0;
   };
-  /// Squares that are closed, each once, enter and are open from now on. `ground` has the samples of all.
-  void enter(SandSurface& surface, ConstHeightView ground, std::span<const Cell> cells);
+  /// Squares that are closed, each once, enter and are open from now on. `ground` has the samples of all, and
+  /// `loose`, which may be empty, so much of it is not solid [m].
+  void enter(SandSurface& surface, ConstHeightView ground, ConstHeightView loose,
+             std::span<const Cell> cells);
   /// The vertices of what has entered, without those that are fixed.
   std::span<const VertexId> inside() const noexcept { return inside_; }
   /// Takes away what was the fence between them and those that were open before.
@@ -57,6 +59,7 @@ class Opening {
   void enterVertices(SandSurface& surface, ConstHeightView ground);
   void enterEdges(SandSurface& surface);
   void forgetPast(SandSurface& surface);
+  void loosen(SandSurface& surface, ConstHeightView loose) const;
 
   std::vector<Cell> cells_;  // that come
   int column_ = 0, row_ = 0, columns_ = 0;

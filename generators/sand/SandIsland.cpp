@@ -180,7 +180,7 @@ void SandIsland::takeGroundIn(const Stamp& stamp, const SandPress& press) {
   forEachCell(press.opens, [&](Opening::Cell cell) {
     if (!surface().cells().isOpen(cell.column, cell.row)) cells_.push_back(cell);
   });
-  sandbox_.open(ground_.view(), cells_);
+  sandbox_.open(ground_.view(), loose_.view(), cells_);
   sandbox_.forgetLeanedOn();
   leanedSeen_ = 0;  // more may give way now
   const double across = press.opens / grid_.region().spacing;
@@ -256,7 +256,7 @@ bool SandIsland::runOut() {
     assert(surface().mesh().isVertex(corner));
     findWayOut(surface().mesh().point(corner));
     if (cells_.empty()) continue;
-    sandbox_.open(ground_.view(), cells_);
+    sandbox_.open(ground_.view(), loose_.view(), cells_);
     const double more = static_cast<double>(cells_.size());
     // What n^1.5 grows by.
     allowLooks(static_cast<std::uint64_t>(1.5 * kLooks * std::sqrt(squares_) * more));
@@ -286,6 +286,7 @@ Result<void> SandIsland::grow(const DeformRegion& region, ConstHeightView ground
   if (Result<void> held = checkHeights(ground); !held) return held;
   grid_.grow(region, ground);
   ground_ = copyOf(ground);
+  loose_ = HeightMap();
   sandbox_.grow(west, south, columns, rows);
   reached_ = reached_.grown(west, south, columns, rows);
   return {};
@@ -316,8 +317,9 @@ void SandIsland::take(SandIsland& other) {
   poured_ += other.poured_;
 }
 
-/// Takes the TIN's heights at the samples within a triangle.
-void SandIsland::sample(TriangleId t) {
+/// Calls visit(x, y, p) for the samples in a triangle that may change.
+template <class Visitor>
+void SandIsland::forEachSample(TriangleId t, Visitor&& visit) const {
   if (!surface().isOpen(t)) return;
   const Triangulation& mesh = surface().mesh();
   const OpenCells& cells = surface().cells();
@@ -330,12 +332,42 @@ void SandIsland::sample(TriangleId t) {
     for (int x = cells.columnOf(west + kUp); x <= cells.columnOf(east); ++x) {
       const LatticePoint p = cells.point(x, y);
       if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0 || orientation(c, a, p) < 0) continue;
-      if (cells.isFixed(p)) continue;
-      const double ground = ground_(x, y), height = mesh.heightAt(p, t);
-      const double now = std::fabs(height - ground) <= tolerance() ? ground : height;
-      if (grid_(x, y) != now) grid_.set(x, y, now);
+      if (!cells.isFixed(p)) visit(x, y, p);
     }
   }
+}
+
+/// Takes the TIN's heights at the samples within a triangle.
+void SandIsland::sample(TriangleId t) {
+  forEachSample(t, [&](int x, int y, LatticePoint p) {
+    const double ground = ground_(x, y), height = surface().mesh().heightAt(p, t);
+    const double now = std::fabs(height - ground) <= tolerance() ? ground : height;
+    if (grid_(x, y) != now) grid_.set(x, y, now);
+  });
+}
+
+void SandIsland::layLoose(ConstHeightView depths) {
+  assert(atRest() && depths.columns() == ground_.columns() && depths.rows() == ground_.rows());
+  loose_ = copyOf(depths);
+}
+
+bool SandIsland::loose(HeightView depths) const {
+  assert(atRest());
+  for (int y = 0; y < depths.rows(); ++y) {
+    if (loose_.rows() > 0) {
+      std::copy_n(loose_.view().row(y), depths.columns(), depths.row(y));
+    } else {
+      std::fill_n(depths.row(y), depths.columns(), 0.0F);
+    }
+  }
+  const Triangulation& mesh = surface().mesh();
+  for (TriangleId t = 0; t < mesh.triangleSlots(); ++t) {
+    if (!mesh.isTriangle(t)) continue;
+    forEachSample(t, [&](int x, int y, LatticePoint p) {
+      depths(x, y) = static_cast<float>(metresFromTicks(surface().looseAt(p, t)));
+    });
+  }
+  return true;
 }
 
 std::shared_ptr<const DeformedGround> SandIsland::snapshot() {
@@ -385,7 +417,7 @@ double SandIsland::samplingError() const {
 
 std::size_t SandIsland::bytes() const noexcept {
   return sizeof(*this) - sizeof(grid_) - sizeof(sandbox_) + grid_.bytes() + sandbox_.bytes() +
-         reached_.bytes() + cells_.capacity() * sizeof(Opening::Cell) +
+         reached_.bytes() + cells_.capacity() * sizeof(Opening::Cell) + loose_.bytes() +
          ground_.samples().size() * sizeof(float);
 }
 

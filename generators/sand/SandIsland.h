@@ -32,8 +32,9 @@ struct SandPress {
 /// 1024 a step; patch corners are whole squares of 1024 steps, so islands differ by whole steps. The lattice
 /// is 2^18 squares a side, with the first region in its middle: however the island grows, no point moves. It
 /// begins without any sand. Each stamp first takes the squares around it into the TIN, exactly as nodes draw
-/// them (Opening.h), as solid ground; vertices that are flat go from there to the clean-up's
-/// tolerance. What tools cut becomes loose, and only loose material slides (Sandbox.h).
+/// them (Opening.h), as solid ground, or, where islands before it have left it so, as loose ground that lies
+/// as it lies until something moves it; vertices that are flat go from there to the clean-up's tolerance.
+/// What tools cut becomes loose, and only loose material slides (Sandbox.h).
 ///
 /// The fence around those squares keeps all others, and so the rim and the collar, as they are, bit for bit:
 /// sand that comes there leans on it. Where it would slide on, the fence gives way at the end of the logical
@@ -88,6 +89,8 @@ class SandIsland final : public LiveSurface {
   bool atRest() const noexcept override { return !begun_ && sandbox_.isDone(); }
   std::shared_ptr<const DeformedGround> snapshot() override;
   std::size_t bytes() const noexcept override;
+  void layLoose(ConstHeightView depths) override;
+  bool loose(HeightView depths) const override;
   /// Refuses a region beyond its lattice, and what begin() refuses.
   Result<void> grow(const DeformRegion& region, ConstHeightView ground) override;
   /// Takes others in with all that is loose, owed and still to be cleaned up; their steps are forgotten.
@@ -113,11 +116,14 @@ class SandIsland final : public LiveSurface {
   void findWayOut(LatticePoint corner);
   bool runOut();
   void sample(TriangleId t);
+  template <class Visitor>
+  void forEachSample(TriangleId t, Visitor&& visit) const;
   double volumeOverOpenSquares(double from) const;
   double volumeUnderSamples(double from) const;
   void take(SandIsland& other);
 
   HeightMap ground_;
+  HeightMap loose_;  // of it, when the surface began or grew; empty where all was solid
   DeformGrid grid_;
   Sandbox sandbox_;
   double poured_ = 0.0;

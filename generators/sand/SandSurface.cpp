@@ -175,7 +175,6 @@ void SandSurface::adoptCrossings() {
   }
 }
 
-/// Loose thickness [ticks] at a point of a triangle, between its corners'.
 std::int64_t SandSurface::looseAt(LatticePoint p, TriangleId t) const noexcept {
   const std::array<VertexId, 3>& corners = mesh_.corners(t);
   const LatticePoint a = mesh_.point(corners[0]), b = mesh_.point(corners[1]), c = mesh_.point(corners[2]);

@@ -71,6 +71,9 @@ class SandSurface {
   /// Height [ticks] of the triangles at a lattice point of the box, rounded.
   std::int64_t heightAt(LatticePoint p, TriangleId hint) const noexcept;
 
+  /// Loose thickness [ticks] at a point of a triangle, between its corners', rounded down.
+  std::int64_t looseAt(LatticePoint p, TriangleId t) const noexcept;
+
   /// Sixfold, exactly [ticks steps^2]. O(n).
   SixfoldVolume volume() const noexcept;
   const VolumeLedger& ledger() const noexcept { return ledger_; }
@@ -160,7 +163,6 @@ class SandSurface {
   VertexId add(LatticePoint p, TriangleId t);
   SixfoldVolume finish(const Gone& gone);
   SixfoldVolume lift(VertexId v, std::int64_t ticks);
-  std::int64_t looseAt(LatticePoint p, TriangleId t) const noexcept;
   void noteMoved(VertexId v);
 
   Triangulation mesh_;

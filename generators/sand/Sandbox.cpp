@@ -68,10 +68,10 @@ Result<StampReport> Sandbox::stamp(const ToolShape& tool, const StampPlace& plac
   return report;
 }
 
-void Sandbox::open(ConstHeightView ground, std::span<const Opening::Cell> cells) {
+void Sandbox::open(ConstHeightView ground, ConstHeightView loose, std::span<const Opening::Cell> cells) {
   slides_.forgetGone(surface_);  // slots that triangles outside may take now
-  opening_.enter(surface_, ground, cells);
-  surface_.clearChanges();  // nobody has seen it, and it is solid
+  opening_.enter(surface_, ground, loose, cells);
+  surface_.clearChanges();  // nobody has seen it, and it is at rest
   for (const VertexId v : opening_.inside()) cleanUp_.add(v);
   removable_ += opening_.inside().size();
   opening_.join(surface_);

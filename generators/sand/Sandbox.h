@@ -53,9 +53,9 @@ class Sandbox {
 
   /// Presses a tool in; Stamper::stamp.
   Result<StampReport> stamp(const ToolShape& tool, const StampPlace& place);
-  /// Takes closed squares of a grid of ground into a fenced box (Opening.h), and lets the clean-up have as
-  /// many vertices more as came.
-  void open(ConstHeightView ground, std::span<const Opening::Cell> cells);
+  /// Takes closed squares of a grid of ground, with what is loose of it, into a fenced box (Opening.h), and
+  /// lets the clean-up have as many vertices more as came.
+  void open(ConstHeightView ground, ConstHeightView loose, std::span<const Opening::Cell> cells);
   /// Lets what leaned on the fence slide where it is gone; Slides::forgetLeanedOn.
   void forgetLeanedOn() { slides_.forgetLeanedOn(surface_); }
   /// SandSurface::grow: nobody sees anything change.

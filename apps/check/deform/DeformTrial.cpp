@@ -217,6 +217,14 @@ std::string WatchedSurface::grow(const DeformRegion& region, ConstHeightView gro
   return {};
 }
 
+void WatchedSurface::layLoose(ConstHeightView depths) {
+  watched([&] { return surface_->layLoose(depths), true; });
+}
+
+bool WatchedSurface::loose(HeightView depths) const {
+  return watched([&] { return surface_->loose(depths); });
+}
+
 std::uint64_t WatchedSurface::steps() const {
   return watched([&] { return surface_->steps(); });
 }

@@ -80,6 +80,9 @@ class WatchedSurface {
   /// The sentence with which it refuses to grow; empty where it has.
   std::string grow(const DeformRegion& region, ConstHeightView ground);
 
+  void layLoose(ConstHeightView depths);
+  bool loose(HeightView depths) const;
+
   std::uint64_t steps() const;
   bool atRest() const;
   std::size_t bytes() const;

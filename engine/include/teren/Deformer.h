@@ -134,6 +134,19 @@ class LiveSurface {
   /// there is. O(samples and what else it has).
   virtual double samplingError() const { return 0.0; }
 
+  /// At rest only (assert), right after it began, grew or merged, and only where surfaces before have left
+  /// something loose: so much of the ground at each sample of its region is loose [m], finite and not
+  /// negative, while the rest is solid. Where something of its own lies already, that counts. A surface that
+  /// knows no loose material needs nothing of this.
+  virtual void layLoose(ConstHeightView depths) { (void)depths; }
+  /// At rest only (assert): writes how much of the ground is loose at each sample of its region, what was
+  /// laid and never touched included, and says so; false where it knows no loose material. Then what it
+  /// changed is solid, and all else as it was.
+  virtual bool loose(HeightView depths) const {
+    (void)depths;
+    return false;
+  }
+
   /// At rest only (assert): from now on it covers `region`, of which its own is a part. `ground` has that
   /// region's samples; those where it lay are the ones that it began with. Stamps are then placed from the
   /// new corner, and that is all: samples and steps stay, and what comes is as if it had begun over the

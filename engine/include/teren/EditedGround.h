@@ -66,7 +66,8 @@ struct EditWork {
 ///   has the room (LiveSurface::merge, or grow of one), so that loose material stays loose. Where they refuse
 ///   to, the first grows alone and the others end; where it refuses, too, or there is none, a new one begins.
 /// * After each kMostEditsTogether edits everything comes to rest and ends, before anything else is done: so
-///   the ground then is its samples alone, which is what replay() begins with.
+///   the ground then is its samples alone, and how deep it is loose at each of them, which is what replay()
+///   begins with. Whatever begins or grows over loose ground is told (LiveSurface::layLoose).
 /// * At level L, samples that coincide with level-0 samples that were changed are these (grids only sample).
 ///   Between samples the ground is the world's, moved by what lies between the changed samples and the
 ///   world's own, linearly over the drawn triangles: so how far drawn ground is off stays the world's bound.

@@ -91,6 +91,9 @@ std::vector<Breach> breaches() {
       {"deform-no-door", "hostile", {"but its east NaN: it is taken"}},
       {"deform-no-bytes", "bytes", {"bytes, but", "more are in use than before it began"}},
       {"deform-no-growth", "growth", {"of one that has grown but", "of one that began so"}},
+      {"deform-no-loose",
+       "loose",
+       {"before any stamp: at sample (", "m deep, laid were ", "no stamp reaches"}},
       {"deform-no-freeing", "bytes", {"after 320 surfaces that are gone"}},
   };
 }

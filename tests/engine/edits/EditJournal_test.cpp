@@ -327,7 +327,7 @@ TEST(EditJournal, TellsWhatIsTakenBackWhereNothingIs) {
   }
 }
 
-/// Of some thousand samples, in several rows.
+/// Of some thousand samples, in several rows, and some of the patches loose here and there.
 std::shared_ptr<const GroundCheckpoint> someGround(std::uint64_t seed = 1, int patches = 40) {
   GroundOverrides overrides(32);
   RandomSequence random(seed);
@@ -339,8 +339,15 @@ std::shared_ptr<const GroundCheckpoint> someGround(std::uint64_t seed = 1, int p
       patch.own(place % 32, place / 32) = -1.5F;
     }
   }
+  LooseLayer loose(32);
+  for (int k = 0; k < patches; k += 2) {
+    HeightMap depths(32, 32);
+    for (int place = 0; place < 1024; ++place)
+      depths(place % 32, place / 32) = static_cast<float>(random.nextBits(2));
+    loose.add({k / 7, k % 7}, std::move(depths));
+  }
   return std::make_shared<const GroundCheckpoint>(EditListMark{128, 77}, EndedSurfaces{3, -0.25, 1.5},
-                                                  overrides.share());
+                                                  overrides.share(), std::move(loose));
 }
 
 TEST(EditJournal, KeepsGroundBesideItsEdits) {
@@ -416,29 +423,47 @@ TEST(EditJournal, TakesNoGroundThatCouldNotHaveBeenWritten) {
   EXPECT_TRUE(refused(0, "\0\0\0\x40"sv)) << "a patch beyond all memory";
   EXPECT_TRUE(refused(12, "\0\0\0\0\0\0\xf0\x7f"sv)) << "infinite volume";
   EXPECT_TRUE(refused(20, "\0\0\0\0\0\0\xf0\xbf"sv)) << "a size below 0";
-  EXPECT_TRUE(refused(44, "\xff\xff\xff\xff"sv)) << "more samples than there are";
-  EXPECT_TRUE(refused(48, "\0\x04\0\0"sv)) << "a sample beyond its patch";
-  EXPECT_TRUE(refused(52, "\0\0\xc0\x7f"sv)) << "NaN";
-  EXPECT_TRUE(refused(56, "\0\0\x80\x7f"sv)) << "infinity";
-  EXPECT_TRUE(refused(28, "\x09"sv)) << "patches out of order";
-  // Patches of a sample each, of the largest side, without end.
-  constexpr std::size_t kHead = 28;
-  std::string sparse = std::string("\0\2\0\0"sv) + std::string(kHead - 4, '\0');
-  for (std::uint32_t k = 0; k < 1100; ++k) {
-    std::string patch(32, '\0');
-    patch[8] = static_cast<char>(k);
-    patch[9] = static_cast<char>(k >> 8);
-    patch[16] = 1;
-    patch[27] = 0x40;
-    sparse += patch;
-  }
-  EXPECT_FALSE(GroundCheckpoint::read(good->mark(), sparse).ok());
-  EXPECT_TRUE(GroundCheckpoint::read(good->mark(), std::string_view(sparse).substr(0, kHead + 3 * 32)).ok());
+  EXPECT_TRUE(refused(52, "\xff\xff\xff\xff"sv)) << "more samples than there are";
+  EXPECT_TRUE(refused(56, "\0\x04\0\0"sv)) << "a sample beyond its patch";
+  EXPECT_TRUE(refused(60, "\0\0\xc0\x7f"sv)) << "NaN";
+  EXPECT_TRUE(refused(64, "\0\0\x80\x7f"sv)) << "infinity";
+  EXPECT_TRUE(refused(36, "\x09"sv)) << "patches out of order";
+  EXPECT_TRUE(refused(28, "\x07"sv)) << "more patches than there are";
+  EXPECT_TRUE(refused(text.size() - 4, "\0\0\x80\xbf"sv)) << "less than nothing is loose";
+  EXPECT_TRUE(refused(text.size() - 4, "\0\0\x80\x7f"sv)) << "infinitely much is";
+  EXPECT_TRUE(refused(text.size() - 8, "\0\x04\0\0"sv)) << "beyond its patch";
   EXPECT_TRUE(refused(0, "\0\4"sv)) << "a patch of no world";
-  std::string beyond = sparse.substr(0, kHead + 32);
-  EXPECT_TRUE(GroundCheckpoint::read(good->mark(), beyond).ok());
-  beyond[kHead + 14] = 0x11;
-  EXPECT_FALSE(GroundCheckpoint::read(good->mark(), beyond).ok()) << "beyond the world";
+  // Patches of a sample each, of the largest side, as many as wanted, changed or loose.
+  const auto sparse = [](std::uint32_t changed, std::uint32_t loose) {
+    const auto number = [](std::uint32_t n) {
+      return std::string{static_cast<char>(n), static_cast<char>(n >> 8)};
+    };
+    std::string all =
+        std::string("\0\2\0\0"sv) + std::string(24, '\0') + number(changed) + std::string(6, '\0');
+    for (const auto& [count, bytes] : {std::pair(changed, 32), std::pair(loose, 28)}) {
+      for (std::uint32_t k = 0; k < count; ++k) {
+        std::string patch(static_cast<std::size_t>(bytes), '\0');
+        patch.replace(8, 2, number(k));
+        patch[16] = 1;
+        patch[27] = 0x40;
+        all += patch;
+      }
+    }
+    return all;
+  };
+  const auto isRead = [&](const std::string& bytes) {
+    return GroundCheckpoint::read(good->mark(), bytes).ok();
+  };
+  EXPECT_FALSE(isRead(sparse(1100, 0)));
+  EXPECT_FALSE(isRead(sparse(1000, 200))) << "of both together";
+  EXPECT_FALSE(isRead(sparse(0, 2100)));
+  EXPECT_TRUE(isRead(sparse(3, 0)));
+  EXPECT_TRUE(isRead(sparse(1, 1)));
+  for (const std::size_t at : {std::size_t{36 + 14}, std::size_t{36 + 32 + 14}}) {
+    std::string beyond = sparse(1, 1);
+    beyond[at] = 0x11;
+    EXPECT_FALSE(isRead(beyond)) << "beyond the world";
+  }
   for (std::size_t size = 0; size < text.size(); size += 13) {
     const auto cut = GroundCheckpoint::read(good->mark(), std::string_view(text).substr(0, size));
     EXPECT_TRUE(!cut || cut->text().size() == size) << size;

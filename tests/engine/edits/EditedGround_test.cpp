@@ -365,6 +365,77 @@ TEST(EditedGround, MakesOneOfAllSurfacesOfItsKindInTheWay) {
   EXPECT_TRUE(sameBits(groundOf(kBoth, &ground), heights));
 }
 
+/// A steep heap of damp sand, `between` small holes far from it, then others, and a hole at its foot that
+/// lets dry sand slide.
+std::vector<Edit> undermined(std::size_t between, const std::vector<Edit>& then = {}) {
+  std::vector<Edit> edits = {{"sand", 30.0, 30.0, 0.0, 16.0, -14.0, 0, kMostEditSteps, {{"repose", 45.0}}}};
+  for (std::size_t k = 0; k < between; ++k) {
+    edits.push_back(
+        {"sand", 2030.0, 30.0 + static_cast<double>(k % 8), 0.0, 4.0, 1.0, k, kMostEditSteps, {}});
+  }
+  edits.insert(edits.end(), then.begin(), then.end());
+  edits.push_back({"sand", 44.0, 30.0, 0.0, 10.0, 6.0, 0, kMostEditSteps, {{"repose", 25.0}}});
+  return edits;
+}
+
+TEST(EditedGround, KeepsLooseWhatIsLooseWhereSurfacesHaveEnded) {
+  constexpr std::size_t kPause = EditedGround::kMostEditsTogether;
+  const DeformerSource source = deformersOf(PluginRegistry::standard());
+  const auto heights = [&](std::span<const Edit> edits) {
+    EditedGround ground(testWorld(), source);
+    EXPECT_TRUE(ground.replay(edits));
+    EXPECT_TRUE(ground.rest());
+    return groundOf({-1, -1, 4, 4, 16, 4.0}, &ground);
+  };
+  /// [m] How far the heap falls, behind its top, where no tool came.
+  const auto falls = [&](const std::vector<Edit>& edits) {
+    const HeightMap before = heights(std::span(edits).first(edits.size() - 1)), after = heights(edits);
+    float most = 0.0F;
+    for (int y = 0; y < after.rows(); ++y) {
+      for (int x = 0; x < 16 + 7; ++x) most = std::max(most, before(x, y) - after(x, y));
+    }
+    return most;
+  };
+  const float atOnce = falls(undermined(0));
+  EXPECT_GT(atOnce, 1.0F);
+  EXPECT_NEAR(falls(undermined(kPause)), atOnce, 0.5);
+  // A surface that grows over the heap.
+  EXPECT_NEAR(falls(undermined(kPause, {{"sand", 200.0, 30.0, 0.0, 8.0, 2.0, 0, kMostEditSteps, {}}})),
+              atOnce, 0.5);
+  // One that knows nothing loose has changed all of it.
+  EXPECT_LT(falls(undermined(kPause, {{"crater", 30.0, 30.0, 0.0, 40.0, 2.0, 0, kMostEditSteps, {}}})), 0.1F);
+}
+
+TEST(EditedGround, IsLooseAsTheListSaysHoweverItCameThere) {
+  constexpr std::size_t kPause = EditedGround::kMostEditsTogether;
+  const DeformerSource source = deformersOf(PluginRegistry::standard());
+  const std::vector<Edit> first = undermined(kPause - 1);  // and the hole at the foot
+  const std::vector<Edit> heap(first.begin(), first.end() - 1);
+  ASSERT_EQ(heap.size(), kPause);
+  // Another kind of surface makes solid what it changes.
+  std::vector<Edit> more = heap;
+  more.push_back({"crater", 30.0, 30.0, 0.0, 24.0, 2.0, 0, kMostEditSteps, {}});
+  more.insert(more.end(), heap.begin() + 1, heap.end());
+  more.push_back(more.back());
+  EditedGround expected(testWorld(), source), undone(testWorld(), source), begun(testWorld(), source);
+  ASSERT_TRUE(expected.replay(first));
+  ASSERT_TRUE(undone.replay(more));
+  ASSERT_TRUE(undone.rest());
+  ASSERT_GT(undone.checkpoint()->mark().edits, kPause);
+  ASSERT_TRUE(undone.replay(heap));
+  ASSERT_TRUE(undone.apply(first.back()));
+  ASSERT_TRUE(expected.rest());
+  ASSERT_TRUE(undone.rest());
+  EXPECT_EQ(undone.hash(), expected.hash());
+  auto left = GroundCheckpoint::read(expected.checkpoint()->mark(), expected.checkpoint()->text());
+  ASSERT_TRUE(left.ok());
+  EXPECT_FALSE(left->loose().empty());
+  ASSERT_TRUE(*begun.adopt(std::make_shared<const GroundCheckpoint>(*std::move(left)), first));
+  ASSERT_TRUE(begun.replay(first));
+  ASSERT_TRUE(begun.rest());
+  EXPECT_EQ(begun.hash(), expected.hash());
+}
+
 TEST(EditedGround, GrowsTheFirstWhereSurfacesDoNotMerge) {
   BowlCounts counts;
   EditedGround ground(testWorld(), countedBowls(counts));

@@ -39,7 +39,7 @@ Sandbox heap(double east = 0.0) {
   Sandbox box(closedAt({1 << 20, 1 << 20}), settings());
   std::vector<Opening::Cell> cells;
   forEachCellWithin(box.surface(), 24.0, 24.0, 18.0, [&](Opening::Cell cell) { cells.push_back(cell); });
-  box.open(ground.view(), cells);
+  box.open(ground.view(), {}, cells);
   box.pour(25.0 + east, 24.0, 6.0, 4.0);
   while (!box.isDone()) box.iterate(1000);
   return box;

@@ -108,6 +108,12 @@ class Island {
   }
   const DeformRegion& region() const { return region_; }
 
+  HeightMap loose() {
+    HeightMap depths(region_.sampleColumns(), region_.sampleRows());
+    EXPECT_TRUE(live_->loose(depths.view()));
+    return depths;
+  }
+
   HeightMap heights() {
     HeightMap map(region_.sampleColumns(), region_.sampleRows());
     live_->snapshot()->samples({0, 0, map.columns(), map.rows()}, map.view());
@@ -420,6 +426,92 @@ TEST(SandIsland, KeepsItsLooseSandLooseWhenItGrows) {
   grown.rest();
   EXPECT_LT(at(grown.heights(), 64 + 192, 48 + 32), height - 0.5F);
   EXPECT_EQ(at(grown.heights(), 64 + 192, 48 + 32), at(stays.heights(), 64, 48));
+}
+
+/// Up to 2 m, in whole ticks, and nothing in every fifth column.
+double someDepth(int x, int y) {
+  return x % 5 == 0 ? 0.0 : ((x * 5 + y * 3) & 15) / 8.0;
+}
+
+HeightMap depthsIn(const DeformRegion& region) {
+  const int x0 = static_cast<int>(region.i) * 32, y0 = static_cast<int>(region.j) * 32;
+  return groundOf(region, [&](int x, int y) { return someDepth(x + x0 + 1024, y + y0 + 1024); });
+}
+
+TEST(SandIsland, TakesLooseGroundInAsLooseButAtTheFence) {
+  const HeightMap ground = wavesIn(kRegion), depths = depthsIn(kRegion);
+  Island island(ground);
+  island->layLoose(depths.view());
+  const std::array stamps = {stamp(80.0, 90.0, 5.0, 2.0), stamp(120.0, 94.0, 5.0, -3.0)};
+  // The second one takes in what was the fence of the first.
+  for (const Stamp& stamp : stamps) island.press(stamp);
+  const SandSurface& surface = island.surface();
+  int looseAsLaid = 0, fixed = 0;
+  for (VertexId v = 4; v < surface.mesh().vertexSlots(); ++v) {
+    if (!surface.mesh().isVertex(v)) continue;
+    const LatticePoint p = surface.mesh().point(v);
+    const int x = surface.cells().columnOf(p.x), y = surface.cells().rowOf(p.y);
+    const bool isPressed = std::any_of(stamps.begin(), stamps.end(), [&](const Stamp& stamp) {
+      return std::hypot(2.0 * x - stamp.east, 2.0 * y - stamp.north) < 3.0 * stamp.size;
+    });
+    fixed += surface.isFixed(v) ? 1 : 0;
+    if (isPressed) continue;
+    ASSERT_EQ(p, surface.cells().point(x, y));
+    ASSERT_EQ(surface.loose(v), surface.isFixed(v) ? 0 : ticksFromMetres(depths(x, y))) << x << ", " << y;
+    looseAsLaid += surface.loose(v) > 0 ? 1 : 0;
+  }
+  EXPECT_GT(looseAsLaid, 200);
+  EXPECT_GT(fixed, 50);
+  island.rest();
+  expectSound(island, ground);
+}
+
+TEST(SandIsland, TellsWhatIsLoose) {
+  const HeightMap ground = wavesIn(kRegion), depths = depthsIn(kRegion);
+  Island island(ground);
+  EXPECT_TRUE(test::sameBits(island.loose().view(), HeightMap(ground.columns(), ground.rows()).view()));
+  const Stamp dug = stamp(60.0, 90.0, 6.0, 3.0);
+  island.press(dug);
+  island.rest();
+  const HeightMap heights = island.heights(), loose = island.loose();
+  EXPECT_GT(at(loose, 30 + 5, 45), 0.25F) << "what the tool has pushed aside";
+  const double reach = SandIsland::read(dug, kRegion.spacing).value().reach;
+  double volume = 0.0;  // [m^3]
+  for (int y = 0; y < ground.rows(); ++y) {
+    for (int x = 0; x < ground.columns(); ++x) {
+      volume += 4.0 * loose(x, y);
+      if (loose(x, y) == 0.0F) continue;
+      ASSERT_LT(std::hypot(2.0 * x - dug.east, 2.0 * y - dug.north), reach);
+    }
+  }
+  const double step = island.surface().step();
+  const double onTriangles = asDouble(looseVolume(island)) / 6.0 * step * step * kMetresPerTick;
+  EXPECT_NEAR(volume, onTriangles, 0.05 * onTriangles);
+  // Laid on the ground as it was left, it is as loose as before.
+  Island after(heights);
+  after->layLoose(loose.view());
+  EXPECT_TRUE(test::sameBits(after.loose().view(), loose.view()));
+  EXPECT_TRUE(test::sameBits(after.heights().view(), heights.view()));
+}
+
+TEST(SandIsland, GoesOnAfterGrowingOverLooseGroundAsIfItHadBegunSo) {
+  const HeightMap ground = wavesIn(kLarge), depths = depthsIn(kLarge);
+  Island grown(wavesIn(kRegion)), large(ground, kLarge);
+  grown->layLoose(depthsIn(kRegion).view());
+  large->layLoose(depths.view());
+  play(grown, 120.0, 90.0, 5);
+  play(large, 120.0 + 384.0, 90.0 + 64.0, 5);
+  grown.grow(ground, kLarge);
+  grown->layLoose(depths.view());
+  EXPECT_TRUE(test::sameBits(grown.loose().view(), large.loose().view()));
+  for (const auto& [east, north] : {std::pair(258.0, 150.0), std::pair(790.0, 300.0)}) {
+    play(grown, east, north, 6);
+    play(large, east, north, 6);
+    EXPECT_EQ(grown->steps(), large->steps());
+    ASSERT_TRUE(test::sameBits(grown.heights().view(), large.heights().view()));
+    ASSERT_TRUE(test::sameBits(grown.loose().view(), large.loose().view()));
+  }
+  expectSound(grown, ground);
 }
 
 TEST(SandIsland, GrowsAgainAndAgainToAllSides) {
