@@ -55,6 +55,8 @@ struct Live {
   std::uint64_t stepsAtEdit = 0;  // its steps when the latest edit came
   SampleRectangle written{};      // what is in the overrides
   bool isWritten = true;          // and it is how the surface is now
+
+  std::uint64_t stepsSinceEdit() const { return surface->steps() - stepsAtEdit; }
 };
 
 /// Patches over which only surfaces of one kind live any more, which are to become one; at rest.
@@ -74,19 +76,6 @@ auto guarded(const std::string& kind, const Ask& ask) -> Result<decltype(ask())>
   } catch (...) {
   }
   return Error{"the deformer " + inQuotes(kind) + " threw " + thrown};
-}
-
-SampleRectangle joined(const SampleRectangle& a, const SampleRectangle& b) {
-  if (a.columns == 0 || a.rows == 0) return b;
-  if (b.columns == 0 || b.rows == 0) return a;
-  const int column = std::min(a.column, b.column), row = std::min(a.row, b.row);
-  return {column, row, std::max(a.column + a.columns, b.column + b.columns) - column,
-          std::max(a.row + a.rows, b.row + b.rows) - row};
-}
-
-bool within(const SampleRectangle& part, ConstHeightView whole) {
-  return part.columns >= 0 && part.rows >= 0 && part.column >= 0 && part.row >= 0 &&
-         part.columns <= whole.columns() - part.column && part.rows <= whole.rows() - part.row;
 }
 
 /// The patches within `reach` [m] of a place along one axis: the first, and the one behind the last.
@@ -202,12 +191,15 @@ class EditedGround::State {
 
  private:
   Result<void> run(Live& live, std::uint64_t upTo, const EditWork& work) const;
+  Result<void> runAll(std::uint64_t steps, const EditWork& work);
+  Result<std::optional<PatchRectangle>> spreadOf(const Live& live) const;
+  Result<bool> spread(Live& live, const EditWork& work);
   Result<void> runToRest(Live& live, const EditWork& work) const;
   Result<void> write(Live& live);
   Result<void> noteEnd(const Live& live);
   Result<void> lay(Live& live) const;
   Result<void> keepLoose(const Live& live);
-  Result<Room> clear(const PlacedEdit& edit, const EditWork& work);
+  Result<Room> clear(std::string kind, const PatchRectangle& patches, const EditWork& work);
   Result<bool> extend(std::span<Live* const> living, const PatchRectangle& patches,
                       const HeightMap& ground) const;
   Result<Live*> joinedIn(const Room& room, const HeightMap& ground);
@@ -227,8 +219,9 @@ class EditedGround::State {
   EndedSurfaces ended_;
   /// Of pauses; the farther back, the fewer.
   std::vector<std::shared_ptr<const GroundCheckpoint>> checkpoints_;
-  std::list<Live> live_;  // in the order in which they were begun
-  bool resting_ = true;   // and all that is live is in the overrides
+  std::list<Live> live_;             // in the order in which they were begun
+  bool resting_ = true;              // and all that is live is in the overrides
+  std::uint64_t stepsToSpread_ = 0;  // since the latest edit, for all that has spread since
 };
 
 DeformRegion EditedGround::State::regionOf(const PatchRectangle& patches) const noexcept {
@@ -317,8 +310,9 @@ Result<void> EditedGround::State::write(Live& live) {
   const ConstHeightView ground = live.ground.view();
   const SampleRectangle changed = (*taken)->changed();
   const std::string owner = "the deformer " + inQuotes(live.kind) + " ";
-  if (!within(changed, ground)) return Error{owner + "claims to have changed ground beyond its region"};
-  const SampleRectangle part = joined(changed, live.written);
+  if (!SampleRectangle{0, 0, ground.columns(), ground.rows()}.contains(changed))
+    return Error{owner + "claims to have changed ground beyond its region"};
+  const SampleRectangle part = changed.joinedWith(live.written);
   HeightMap heights(part.columns, part.rows);
   const auto read = guarded(live.kind, [&] { return (*taken)->samples(part, heights.view()), true; });
   if (!read) return read.error();
@@ -394,9 +388,10 @@ Result<void> EditedGround::State::noteEnd(const Live& live) {
   return {};
 }
 
-/// Ends the surfaces in the way of an edit but for those of its kind.
-Result<Room> EditedGround::State::clear(const PlacedEdit& edit, const EditWork& work) {
-  Room room{edit.needed, {}};
+/// Ends the surfaces in the way of one of a kind but for those of that kind.
+Result<Room> EditedGround::State::clear(std::string kind, const PatchRectangle& patches,
+                                        const EditWork& work) {
+  Room room{patches, {}};
   for (;;) {
     const auto inTheWay = std::find_if(live_.begin(), live_.end(), [&](const Live& live) {
       return std::find(room.living.begin(), room.living.end(), &live) == room.living.end() &&
@@ -406,7 +401,7 @@ Result<Room> EditedGround::State::clear(const PlacedEdit& edit, const EditWork& 
     if (Result<void> done = runToRest(*inTheWay, work); !done) return done.error();
     if (Result<void> written = write(*inTheWay); !written) return written.error();
     const PatchRectangle larger = room.patches.joinedWith(inTheWay->patches);
-    if (inTheWay->kind == edit.kind && larger.samples(world_.intervals()) <= kMostJoinedSamples) {
+    if (inTheWay->kind == kind && larger.samples(world_.intervals()) <= kMostJoinedSamples) {
       room.patches = larger;
       room.living.push_back(&*inTheWay);
     } else {
@@ -428,7 +423,7 @@ Result<bool> EditedGround::State::extend(std::span<Live* const> living, const Pa
     const SampleRectangle place = region.placeOf(regionOf(live->patches));
     copyHeights(live->ground.view(), before.view().part(place.column, place.row, place.columns, place.rows));
     const SampleRectangle& own = live->written;
-    written = joined(written, {own.column + place.column, own.row + place.row, own.columns, own.rows});
+    written = written.joinedWith({own.column + place.column, own.row + place.row, own.columns, own.rows});
     if (live != living.front()) others.push_back(live->surface.get());
   }
   Live& first = *living.front();
@@ -491,7 +486,7 @@ Result<Live*> EditedGround::State::surfaceFor(const PlacedEdit& edit, const Edit
     return live.kind == edit.kind && live.patches.contains(edit.needed);
   });
   if (ready != live_.end()) return &*ready;
-  const Result<Room> room = clear(edit, work);
+  const Result<Room> room = clear(edit.kind, edit.needed, work);
   if (!room) return room.error();
   Result<HeightMap> ground = groundOf(room->patches, work);
   if (!ground) return ground.error();
@@ -513,14 +508,77 @@ Result<Live*> EditedGround::State::surfaceFor(const PlacedEdit& edit, const Edit
   return &live_.back();
 }
 
+/// The patches of a surface at rest that would spread, with those to which it would; none where it would not,
+/// or may not.
+Result<std::optional<PatchRectangle>> EditedGround::State::spreadOf(const Live& live) const {
+  constexpr int kFar = 1 << 24;
+  const auto asked = guarded(live.kind, [&] { return live.surface->spreadsTo(); });
+  if (!asked) return asked.error();
+  if (asked->isEmpty()) return std::optional<PatchRectangle>();
+  if (!SampleRectangle{-kFar, -kFar, 2 * kFar, 2 * kFar}.contains(*asked))
+    return Error{"the deformer " + inQuotes(live.kind) + " would spread to where no ground is"};
+  const int bits = std::countr_zero(static_cast<unsigned>(world_.intervals()));
+  const auto patchOf = [bits](int sample) { return std::int64_t{sample} >> bits; };
+  const PatchRectangle& own = live.patches;
+  const PatchRectangle all =
+      own.joinedWith({own.west + patchOf(asked->column - kCollarCells - 1),
+                      own.south + patchOf(asked->row - kCollarCells - 1),
+                      own.west + patchOf(asked->column + asked->columns + kCollarCells) + 1,
+                      own.south + patchOf(asked->row + asked->rows + kCollarCells) + 1});
+  const bool isInWorld = PatchRectangle{-kMaxPatch, -kMaxPatch, kMaxPatch, kMaxPatch}.contains(all);
+  if (!isInWorld || all.samples(world_.intervals()) > kMostJoinedSamples)
+    return std::optional<PatchRectangle>();
+  return std::optional(all);
+}
+
+/// Lets a surface at rest spread, if it would, and makes room for that before. True: it has changed, or what
+/// lives has. One step more than it had done is counted, so that whoever applies the same edits does so too:
+/// it may go on as a part of another surface that had done fewer.
+Result<bool> EditedGround::State::spread(Live& live, const EditWork& work) {
+  const Result<std::optional<PatchRectangle>> over = spreadOf(live);
+  if (!over) return over.error();
+  if (!*over) return false;
+  stepsToSpread_ = std::max(stepsToSpread_, live.stepsSinceEdit() + 1);
+  if (live.patches.contains(**over)) {
+    const auto isAtRest = guarded(live.kind, [&] { return live.surface->spread(), live.surface->atRest(); });
+    if (!isAtRest) return isAtRest.error();
+    if (!*isAtRest) return true;
+    return Error{"the deformer " + inQuotes(live.kind) + " says that it would spread, and does not"};
+  }
+  const Result<Room> room = clear(live.kind, **over, work);
+  if (!room) return room.error();
+  const Result<HeightMap> ground = groundOf(room->patches, work);
+  if (!ground) return ground.error();
+  const Result<Live*> joined = joinedIn(*room, *ground);
+  if (!joined) return joined.error();
+  if (*joined == nullptr) return true;
+  if (Result<void> laid = lay(**joined); !laid) return laid.error();
+  return true;
+}
+
+/// All that lives goes so many steps on from the latest edit, or to rest, where it spreads if it would.
+Result<void> EditedGround::State::runAll(std::uint64_t steps, const EditWork& work) {
+  for (auto live = live_.begin(); live != live_.end();) {
+    if (Result<void> done = run(*live, live->stepsAtEdit + steps, work); !done) return done;
+    if (live->surface->atRest() && live->stepsSinceEdit() < steps) {
+      const Result<bool> spreads = spread(*live, work);
+      if (!spreads) return spreads.error();
+      if (*spreads) {
+        live = live_.begin();
+        continue;
+      }
+    }
+    ++live;
+  }
+  return {};
+}
+
 Result<void> EditedGround::State::press(const PlacedEdit& edit, std::uint64_t steps, const EditWork& work) {
   if (isPause()) {
     if (Result<void> rested = rest(work); !rested) return rested;
   }
   resting_ = false;
-  for (Live& live : live_) {
-    if (Result<void> done = run(live, live.stepsAtEdit + steps, work); !done) return done;
-  }
+  if (Result<void> done = runAll(steps, work); !done) return done;
   const Result<Live*> live = surfaceFor(edit, work);
   if (!live) return live.error();
   const double pitch = world_.pitch();
@@ -534,10 +592,12 @@ Result<void> EditedGround::State::press(const PlacedEdit& edit, std::uint64_t st
   if (!*pressed) return pressed->error();
   (*live)->isWritten = false;
   for (Live& one : live_) one.stepsAtEdit = one.surface->steps();
+  stepsToSpread_ = 0;
   return {};
 }
 
 Result<void> EditedGround::State::rest(const EditWork& work) {
+  if (Result<void> done = runAll(kMostEditSteps, work); !done) return done;
   for (Live& live : live_) {
     if (Result<void> done = runToRest(live, work); !done) return done;
     if (live.isWritten) continue;
@@ -580,6 +640,7 @@ std::size_t EditedGround::State::goBack(std::size_t edits) {
     loose_ = checkpoints_.back()->loose();
   }
   live_.clear();
+  stepsToSpread_ = 0;
   resting_ = true;
   spent.reset();
   return mark_.edits;
@@ -614,8 +675,8 @@ Result<bool> EditedGround::State::fits(const GroundCheckpoint& checkpoint, std::
 
 std::uint64_t EditedGround::State::stepsSinceEdit() const noexcept {
   if (isPause()) return 0;  // whatever the next edit says, all comes to rest before
-  std::uint64_t most = 0;
-  for (const Live& live : live_) most = std::max(most, live.surface->steps() - live.stepsAtEdit);
+  std::uint64_t most = stepsToSpread_;
+  for (const Live& live : live_) most = std::max(most, live.stepsSinceEdit());
   return most;
 }
 

@@ -200,6 +200,11 @@ void SandIsland::allowLooks(std::uint64_t looks) {
   slidesUntil_ = std::min(slidesUntil_ + looks, slidesMost_);
 }
 
+/// What n^1.5 grows by with so many squares more.
+std::uint64_t SandIsland::looksFor(double more) const noexcept {
+  return static_cast<std::uint64_t>(1.5 * kLooks * std::sqrt(squares_) * more);
+}
+
 std::uint64_t SandIsland::looksLeft() const noexcept {
   const std::uint64_t done = sandbox_.slides().count().steps;
   return std::max(slidesUntil_, done) - done;
@@ -258,8 +263,7 @@ bool SandIsland::runOut() {
     if (cells_.empty()) continue;
     sandbox_.open(ground_.view(), loose_.view(), cells_);
     const double more = static_cast<double>(cells_.size());
-    // What n^1.5 grows by.
-    allowLooks(static_cast<std::uint64_t>(1.5 * kLooks * std::sqrt(squares_) * more));
+    allowLooks(looksFor(more));
     squares_ += more;
     return runsOut_ = true;
   }
@@ -268,6 +272,45 @@ bool SandIsland::runOut() {
     leanedSeen_ = sandbox_.slides().leanedOn().ids().size();
   }
   return false;
+}
+
+/// Calls visit(samples) for what lies around each corner of the fence that sand leans on.
+template <class Visitor>
+void SandIsland::forEachSpread(Visitor&& visit) const {
+  assert(atRest());
+  if (sandbox_.slides().count().steps >= slidesMost_) return;
+  const std::int64_t film = ticksFromMetres(kFilm * grid_.region().spacing);
+  for (const VertexId corner : sandbox_.slides().leanedOn().ids()) {
+    if (!sandbox_.slides().leansOn(surface(), corner, film)) continue;
+    const LatticePoint p = surface().mesh().point(corner);
+    const int column = surface().cells().columnOf(p.x), row = surface().cells().rowOf(p.y);
+    visit(SampleRectangle{column - kSpreadCells, row - kSpreadCells, 2 * kSpreadCells + 1,
+                          2 * kSpreadCells + 1});
+  }
+}
+
+SampleRectangle SandIsland::spreadsTo() const {
+  SampleRectangle all;
+  forEachSpread([&](const SampleRectangle& part) { all = all.joinedWith(part); });
+  return all;
+}
+
+void SandIsland::spread() {
+  const SampleRectangle changeable = grid_.region().changeable();
+  bool mayGoOn = false;
+  forEachSpread([&](const SampleRectangle& part) {
+    if (!changeable.contains(part)) return;
+    mayGoOn = true;
+    allowLooks(looksFor(4 * kRunOutCells * kRunOutCells));
+    for (int row = part.row; row < part.row + part.rows - 1; ++row) {
+      for (int column = part.column; column < part.column + part.columns - 1; ++column) {
+        reached_.open(column, row);
+      }
+    }
+  });
+  if (!mayGoOn) return;
+  leanedSeen_ = 0;
+  begun_ = true;  // a step that looks for ways out
 }
 
 Result<void> SandIsland::grow(const DeformRegion& region, ConstHeightView ground) {

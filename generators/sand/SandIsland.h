@@ -40,7 +40,9 @@ struct SandPress {
 /// sand that comes there leans on it. Where it would slide on, the fence gives way at the end of the logical
 /// step, kRunOutCells squares far, within the reach of the stamps so far: three times as far as they take
 /// ground in, or 96 spacings farther where that is less, so that what is heaped on a steep slope runs down
-/// it. Only there it lies as against a wall, and keeps its volume; later stamps near by move that outwards.
+/// it. Only there it lies as against a wall, and keeps its volume, until it is let (spread()): then the fence
+/// gives way on, kSpreadCells squares around whatever leans on it there with more than a film. So an
+/// avalanche runs to the foot of any slope that the engine has room for.
 /// Where sand spreads, patches are nothing, nor is it to be seen that an island has grown; one that took
 /// others in goes on with their triangles, volumes, debts and waiting vertices (Merging.h).
 ///
@@ -67,6 +69,8 @@ class SandIsland final : public LiveSurface {
   static constexpr double kMostSpacings = 64.0;  ///< of a tool's size: more would be a million vertices
   static constexpr std::int32_t kStepsASpacing = 1024;
   static constexpr int kRunOutCells = 2;
+  static constexpr int kSpreadCells = 32;             ///< to each side
+  static constexpr double kFilm = 1.0 / 16.0;         ///< [spacings] that less loose material is
   static constexpr double kTolerance = 1.0 / 2048.0;  ///< [spacings]
   static constexpr std::uint64_t kStepFaces = 1024;
   static constexpr std::size_t kStepVertices = 256;
@@ -91,6 +95,9 @@ class SandIsland final : public LiveSurface {
   std::size_t bytes() const noexcept override;
   void layLoose(ConstHeightView depths) override;
   bool loose(HeightView depths) const override;
+  /// The squares around whatever sand leans on. Nothing where kMostLooks are used up.
+  SampleRectangle spreadsTo() const override;
+  void spread() override;
   /// Refuses a region beyond its lattice, and what begin() refuses.
   Result<void> grow(const DeformRegion& region, ConstHeightView ground) override;
   /// Takes others in with all that is loose, owed and still to be cleaned up; their steps are forgotten.
@@ -112,7 +119,10 @@ class SandIsland final : public LiveSurface {
   void takeGroundIn(const Stamp& stamp, const SandPress& press);
   void limitLooks();
   void allowLooks(std::uint64_t looks);
+  std::uint64_t looksFor(double more) const noexcept;
   void work();
+  template <class Visitor>
+  void forEachSpread(Visitor&& visit) const;
   void findWayOut(LatticePoint corner);
   bool runOut();
   void sample(TriangleId t);

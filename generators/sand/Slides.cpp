@@ -102,24 +102,44 @@ void Slides::takeLeanedOn(const Slides& other, std::span<const VertexId> taken) 
   for (const VertexId v : other.leanedOn_.ids()) leanedOn_.add(taken[v]);
 }
 
-void Slides::look(SandSurface& surface, TriangleId t) {
+/// One that is steeper than it may be and bears something loose.
+std::optional<Slides::SteepFace> Slides::steepFace(const SandSurface& surface, TriangleId t) const {
   Face face = surface.unweighedFace(t);
   const double slope = slopeOf(face, surface.step());
-  if (!(slope > repose_.start)) return;
+  if (!(slope > repose_.start)) return std::nullopt;
   const auto bears = [](const FaceCorner& corner) { return corner.loose > kBareTicks; };
-  if (std::none_of(face.begin(), face.end(), bears)) return;
+  if (std::none_of(face.begin(), face.end(), bears)) return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i) face[i].isFixed = surface.isFixed(surface.mesh().corners(t)[i]);
+  return SteepFace{face, slope};
+}
+
+bool Slides::leansOn(const SandSurface& surface, VertexId fixed, std::int64_t more) const {
+  bool leans = false;
+  surface.mesh().forEachCorner(fixed, [&](Link at) {
+    if (leans) return;
+    const std::optional<SteepFace> steep = steepFace(surface, at.triangle());
+    const auto bearsMore = [more](const FaceCorner& corner) { return corner.loose > more; };
+    leans = steep && teren::leansOn(steep->face, static_cast<std::size_t>(at.side())) &&
+            std::ranges::any_of(steep->face, bearsMore);
+  });
+  return leans;
+}
+
+void Slides::look(SandSurface& surface, TriangleId t) {
+  std::optional<SteepFace> steep = steepFace(surface, t);
+  if (!steep) return;
+  Face& face = steep->face;
   const std::array<VertexId, 3> corners = surface.mesh().corners(t);
   for (std::size_t i = 0; i < 3; ++i) {
-    face[i].isFixed = surface.isFixed(corners[i]);
     // Of what lies around a fixed corner some is outside, and must leave no trace.
     face[i].weight = face[i].isFixed ? orientation(face[0].place, face[1].place, face[2].place)
                                      : surface.weight(corners[i], stars_[i]);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    if (face[i].isFixed && leansOn(face, i)) leanedOn_.add(corners[i]);
+    if (face[i].isFixed && teren::leansOn(face, i)) leanedOn_.add(corners[i]);
   }
   const auto move = slideFace(face, repose_, surface.step(), surface.ledger());
-  if (!move || (slope > repose_.divide && divideEdges(surface, t, face))) return;
+  if (!move || (steep->slope > repose_.divide && divideEdges(surface, t, face))) return;
   surface.apply(t, face, *move, stars_);
   ++count_.moves;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,6 +62,8 @@ class Slides {
   /// Fixed vertices at which steep faces were seen that lean on them (FaceSlide.h), in the order of the first
   /// time, until they are forgotten.
   const ChangeList& leanedOn() const noexcept { return leanedOn_; }
+  /// Whether a steep face still leans on one of them with more than so much that is loose [ticks].
+  bool leansOn(const SandSurface& surface, VertexId fixed, std::int64_t more) const;
   /// Those that are no longer fixed; faces at them wait.
   void forgetLeanedOn(const SandSurface& surface);
   /// Those of other slides, which have become other vertices.
@@ -78,6 +81,11 @@ class Slides {
  private:
   friend class SandState;  // archives
 
+  struct SteepFace {
+    Face face;  // without weights
+    double slope;
+  };
+  std::optional<SteepFace> steepFace(const SandSurface& surface, TriangleId t) const;
   void look(SandSurface& surface, TriangleId t);
   bool divideEdges(SandSurface& surface, TriangleId t, const Face& face);
   bool divideEdgesAt(SandSurface& surface, VertexId v);

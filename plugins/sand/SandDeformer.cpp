@@ -40,5 +40,5 @@ class SandDeformer final : public teren::Deformer {
 }  // namespace
 
 TEREN_DEFORMER_PLUGIN(
-    SandDeformer, "sand", "1.3",
+    SandDeformer, "sand", "1.4",
     "Loose and solid sand on triangles of its own, dug, raked and heaped with tools; slides")

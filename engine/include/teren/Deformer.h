@@ -28,6 +28,18 @@ struct SampleRectangle {
   bool contains(int x, int y) const noexcept {
     return column <= x && x - column < columns && row <= y && y - row < rows;
   }
+  bool contains(const SampleRectangle& part) const noexcept {
+    return part.column >= column && part.row >= row && part.columns >= 0 && part.rows >= 0 &&
+           part.columns <= column + columns - part.column && part.rows <= row + rows - part.row;
+  }
+  /// The least that contains both; an empty one has no place.
+  SampleRectangle joinedWith(const SampleRectangle& other) const noexcept {
+    if (isEmpty()) return other;
+    if (other.isEmpty()) return *this;
+    const int west = std::min(column, other.column), south = std::min(row, other.row);
+    return {west, south, std::max(column + columns, other.column + other.columns) - west,
+            std::max(row + rows, other.row + other.rows) - south};
+  }
 };
 
 /// A surface changes no corner of the cells that lie so many deep along its region's rim: heights there stay
@@ -168,6 +180,14 @@ class LiveSurface {
     (void)region, (void)ground, (void)others;
     return Error{"this surface does not merge"};
   }
+
+  /// At rest only (assert): where material that leans on the end of its stamps' reach would go on to, samples
+  /// that also lie beyond its region; empty where all comes to rest by itself. O(what leans there).
+  virtual SampleRectangle spreadsTo() const { return {}; }
+  /// At rest only (assert): what its region's changeable() samples have of that may change from now on,
+  /// though no stamp reaches it; where there is some it is not at rest any more. What becomes of it depends
+  /// on nothing else.
+  virtual void spread() {}
 };
 
 /// A kind of deformation. Const and thread-safe. A deformer has no settings of its own: all that can be set
@@ -181,7 +201,8 @@ class Deformer {
   /// How far from its middle [m] the stamp, and what settles because of it alone, may change ground that lies
   /// `spacing` [m] apart: samples at this distance and farther stay as they are. A region that it is applied
   /// to has so much ground around the middle, and the collar beyond. (Many stamps together may move ground
-  /// farther, up to the collar.) Refuses with one sentence a stamp that no region could take.
+  /// farther, up to the collar, and so may one where a surface is let: LiveSurface::spread.) Refuses with one
+  /// sentence a stamp that no region could take.
   virtual Result<double> reach(const Stamp& stamp, double spacing) const = 0;
 
   /// Begins a live surface over `ground`: as many finite samples as the region has (assert), which it copies.

@@ -68,6 +68,9 @@ struct EditWork {
 /// * After each kMostEditsTogether edits everything comes to rest and ends, before anything else is done: so
 ///   the ground then is its samples alone, and how deep it is loose at each of them, which is what replay()
 ///   begins with. Whatever begins or grows over loose ground is told (LiveSurface::layLoose).
+/// * A surface at rest that would spread (LiveSurface::spreadsTo) does so before its next logical step, as
+///   soon as one is asked for, and before whatever began after it does any. It is made room for as for an
+///   edit; where it would have more than kMostJoinedSamples, or leave the world, it lies as it lies.
 /// * At level L, samples that coincide with level-0 samples that were changed are these (grids only sample).
 ///   Between samples the ground is the world's, moved by what lies between the changed samples and the
 ///   world's own, linearly over the drawn triangles: so how far drawn ground is off stays the world's bound.

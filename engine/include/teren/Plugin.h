@@ -38,7 +38,7 @@ struct AbiWord {
 };
 
 /// Raised whenever a type in engine/include/teren that crosses the boundary changes its layout or meaning.
-inline constexpr std::uint64_t kPluginInterfaceVersion = 5;
+inline constexpr std::uint64_t kPluginInterfaceVersion = 6;
 
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr std::uint64_t kSanitizerWord = 1;

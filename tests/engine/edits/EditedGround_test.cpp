@@ -15,6 +15,7 @@
 #include "teren/HeightMapOperations.h"
 
 #include "edits/GroundCheckpoint.h"
+#include "tests/engine/edits/CountedBowls.h"
 #include "tests/engine/edits/TestDeformers.h"
 
 namespace teren {
@@ -436,6 +437,101 @@ TEST(EditedGround, IsLooseAsTheListSaysHoweverItCameThere) {
   EXPECT_EQ(begun.hash(), expected.hash());
 }
 
+/// Applied one by one, each after what was there before it had come to rest.
+std::unique_ptr<EditedGround> played(std::vector<Edit>& edits, const std::shared_ptr<const World>& world,
+                                     const DeformerSource& source) {
+  auto ground = std::make_unique<EditedGround>(world, source);
+  for (Edit& edit : edits) {
+    edit.steps = ground->stepsSinceEdit();
+    EXPECT_TRUE(ground->apply(edit));
+    EXPECT_TRUE(ground->rest());
+  }
+  return ground;
+}
+
+TEST(EditedGround, LetsSurfacesSpreadBeyondTheirPatches) {
+  const HeightMap before = baked({-6, -2, 10, 5, 0}, nullptr);
+  const auto ground = applied({bowl(30.0, 30.0, 20.0, 0, "creeps")});
+  const HeightMap after = baked({-6, -2, 10, 5, 0}, ground.get());
+  const auto fallsAt = [&](double x) {
+    const int column = static_cast<int>(x / 4.0) + 6 * 16, row = 7 + 2 * 16;
+    return before(column, row) - after(column, row);
+  };
+  EXPECT_GT(fallsAt(30.0), 1.0F);
+  EXPECT_GT(fallsAt(30.0 - 160.0), 1.0F);
+  EXPECT_EQ(fallsAt(30.0 - 80.0), 0.0F);
+}
+
+TEST(EditedGround, SpreadsWithTheStepThatComesAfterRest) {
+  const auto hashAfter = [](std::uint64_t steps) {
+    return applied({bowl(30.0, 30.0, 20.0, 0, "creeps"),
+                    bowl(30.0 - 8.0 * 20.0 + 5.0, 30.0, 20.0, steps, "other-bowl")})
+        ->hash();
+  };
+  constexpr std::uint64_t kRest = BowlSurface::kSteps;
+  EXPECT_EQ(hashAfter(kRest), hashAfter(0)) << "the other bowl comes first";
+  EXPECT_NE(hashAfter(kRest + 1), hashAfter(kRest));
+  EXPECT_EQ(hashAfter(kMostEditSteps), hashAfter(kRest + 1));
+}
+
+TEST(EditedGround, SpreadsAfterTheSameStepsHoweverItIsPlayed) {
+  // The second one spreads into the first, which has done no step since; the third comes where that was.
+  std::vector<Edit> edits = {bowl(30.0, 30.0, 20.0, 0, "bowl"),       bowl(30.0, 30.0, 20.0, 0, "creeps"),
+                             bowl(230.0, 30.0, 20.0, 0, "creeps"),    bowl(80.0, 40.0, 20.0, 0, "creeps"),
+                             bowl(75.0, 30.0, 24.0, 0, "other-bowl"), bowl(500.0, 30.0, 20.0, 0, "creeps"),
+                             bowl(340.0, 24.0, 20.0, 0, "creeps")};
+  const auto one = played(edits, testWorld(), testDeformer);
+  EditedGround other(testWorld(), testDeformer);
+  ASSERT_TRUE(other.replay(edits));
+  ASSERT_TRUE(other.rest());
+  EXPECT_EQ(other.hash(), one->hash());
+  EXPECT_GT(edits[3].steps, static_cast<std::uint64_t>(BowlSurface::kSteps)) << "it has spread";
+}
+
+/// Planes of up to 60 degrees, over kilometres.
+std::shared_ptr<const World> steepWorld() {
+  WorldDescription description;
+  description.seed = 3;
+  description.samples = 33;
+  description.pitch = 64.0;
+  LayerDescription layer;
+  layer.generator = "slope";
+  layer.parameters = {{"east", 3000.0}, {"north", 1500.0}};
+  layer.samples = 33;
+  layer.pitch = 2048.0;
+  description.layers.push_back(layer);
+  return *World::create(description, *PluginRegistry::standard());
+}
+
+TEST(EditedGround, LetsSandRunDownSteepGroundBeyondItsReachHoweverItIsPlayed) {
+  const DeformerSource source = deformersOf(PluginRegistry::standard());
+  const auto world = steepWorld();
+  std::vector<Edit> edits;
+  for (int k = 0; k < 6; ++k) {
+    const double x = 300.0 + 90.0 * (k % 3);
+    edits.push_back({"sand", x, 700.0 + 150.0 * (k / 3), 0.0, 8.0, -8.0, 0, 0, {}});
+  }
+  edits.push_back({"crater", 420.0, 760.0, 0.0, 30.0, 8.0, 0, 0, {}});
+  edits.push_back({"sand", 400.0, 800.0, 0.0, 6.0, 4.0, 0, 0, {}});
+  const auto one = played(edits, world, source);
+  EditedGround other(world, source);
+  ASSERT_TRUE(other.replay(edits));
+  ASSERT_TRUE(other.rest());
+  EXPECT_EQ(other.hash(), one->hash());
+}
+
+TEST(EditedGround, DoesNotSpreadToMoreThanASurfaceMayHave) {
+  constexpr double kRadius = 1000.0;
+  const auto ground = applied({bowl(30.0, 30.0, kRadius, 0, "creeps")});
+  const auto isChangedAt = [&](double x) {
+    const BakeRegion patch{static_cast<std::int64_t>(std::floor(x / 64.0)), 0, 1, 1, 0};
+    return !sameBits(baked(patch, nullptr), baked(patch, ground.get()));
+  };
+  EXPECT_TRUE(isChangedAt(30.0));
+  EXPECT_FALSE(isChangedAt(30.0 - BowlSurface::kCreep * kRadius));
+  EXPECT_EQ(ground->stepsSinceEdit(), static_cast<std::uint64_t>(BowlSurface::kSteps));
+}
+
 TEST(EditedGround, GrowsTheFirstWhereSurfacesDoNotMerge) {
   BowlCounts counts;
   EditedGround ground(testWorld(), countedBowls(counts));
@@ -562,6 +658,9 @@ TEST(EditedGround, NamesADeformerThatBreaksItsPromises) {
             "the deformer \"never-rests\" has not come to rest after 1000000 logical steps");
   EXPECT_EQ(failure("never-steps"),
             "the deformer \"never-steps\" has not completed a logical step in 407616 slices");
+  EXPECT_EQ(failure("never-spreads"),
+            "the deformer \"never-spreads\" says that it would spread, and does not");
+  EXPECT_EQ(failure("nowhere"), "the deformer \"nowhere\" would spread to where no ground is");
   EXPECT_EQ(failure("nothing"), "the deformer \"nothing\" began no surface");
   EXPECT_EQ(failure("overshoots"), "the deformer \"overshoots\" did 5 logical steps where 2 were asked for");
 }

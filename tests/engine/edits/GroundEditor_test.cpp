@@ -19,6 +19,7 @@
 #include "teren/HeightMap.h"
 #include "teren/HeightMapOperations.h"
 
+#include "tests/engine/edits/CountedBowls.h"
 #include "tests/engine/edits/TestDeformers.h"
 #include "tests/engine/stream/FaultWorld.h"
 

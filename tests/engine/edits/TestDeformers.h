@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -31,7 +30,10 @@ enum class Fault {
   beginsNothing,
   overshoots,
   doesNotGrow,  // no fault: another one begins
-  restores      // no fault, but what is pressed downwards brings the first ground back, exactly
+  restores,     // no fault, but what is pressed downwards brings the first ground back, exactly
+  creeps,       // no fault: each bowl spreads once, kCreep radii westwards
+  neverSpreads,
+  spreadsNowhere
 };
 
 class BowlGround final : public DeformedGround {
@@ -55,6 +57,7 @@ class BowlGround final : public DeformedGround {
 class BowlSurface final : public LiveSurface {
  public:
   static constexpr int kSteps = 6;
+  static constexpr double kCreep = 8.0;
 
   BowlSurface(const DeformRegion& region, ConstHeightView ground, Fault fault)
       : region_(region), spacing_(region.spacing), fault_(fault), heights_(ground.columns(), ground.rows()) {
@@ -75,10 +78,25 @@ class BowlSurface final : public LiveSurface {
     });
     if (fault_ == Fault::notFinite) heights_(10, 10) = std::numeric_limits<float>::infinity();
     if (fault_ == Fault::touchesCollar) heights_(10, kCollarCells) += 1.0F;
-    if (fault_ != Fault::none && fault_ != Fault::doesNotGrow)
+    if (fault_ != Fault::none && fault_ != Fault::doesNotGrow && fault_ != Fault::creeps)
       touched_ = {0, 0, heights_.columns(), heights_.rows()};
     bowls_.push_back(bowl);
+    if (fault_ == Fault::creeps)
+      creeping_.push_back({bowl.east - kCreep * bowl.size, bowl.north, bowl.size, 0});
     return {};
+  }
+
+  SampleRectangle spreadsTo() const override {
+    if (fault_ == Fault::neverSpreads) return {10, 10, 4, 4};
+    if (fault_ == Fault::spreadsNowhere) return {1 << 30, 0, 4, 4};
+    return creeping_.empty() ? SampleRectangle{} : around(creeping_.front());
+  }
+  void spread() override {
+    if (creeping_.empty() || !region_.changeable().contains(around(creeping_.front()))) return;
+    bowls_.push_back(creeping_.front());
+    creeping_.erase(creeping_.begin());
+    forEach(bowls_.back(),
+            [&](int x, int y, double part) { heights_(x, y) -= 3.0F * static_cast<float>(1.0 - part); });
   }
 
   bool step(const Slice& slice, std::uint64_t upTo) override {
@@ -100,8 +118,9 @@ class BowlSurface final : public LiveSurface {
   /// As if every second bowl had less volume than its samples, and one in three more.
   double samplingError() const override { return 0.5 * (pressed_ % 2) - 0.25 * (pressed_ % 3); }
   Result<void> grow(const DeformRegion& region, ConstHeightView ground) override {
-    if (fault_ != Fault::none) return Error{"this bowl does not grow"};
+    if (fault_ != Fault::none && fault_ != Fault::creeps) return Error{"this bowl does not grow"};
     const SampleRectangle place = region.placeOf(region_);
+    for (Bowl& bowl : creeping_) bowl = shifted(bowl, place);
     HeightMap larger(ground.columns(), ground.rows());
     copyHeights(ground, larger.view());
     copyHeights(heights_.view(), larger.view().part(place.column, place.row, place.columns, place.rows));
@@ -120,6 +139,7 @@ class BowlSurface final : public LiveSurface {
       copyHeights(other.heights_.view(),
                   heights_.view().part(place.column, place.row, place.columns, place.rows));
       touched_ = {0, 0, heights_.columns(), heights_.rows()};
+      for (const Bowl& bowl : other.creeping_) creeping_.push_back(shifted(bowl, place));
     }
     return {};
   }
@@ -129,6 +149,16 @@ class BowlSurface final : public LiveSurface {
     double east, north, size;
     int done;
   };
+
+  Bowl shifted(const Bowl& bowl, const SampleRectangle& place) const {
+    return {bowl.east + place.column * spacing_, bowl.north + place.row * spacing_, bowl.size, bowl.done};
+  }
+  SampleRectangle around(const Bowl& bowl) const {
+    const int west = static_cast<int>(std::floor((bowl.east - bowl.size) / spacing_));
+    const int south = static_cast<int>(std::floor((bowl.north - bowl.size) / spacing_));
+    const int side = static_cast<int>(2.0 * bowl.size / spacing_) + 3;
+    return {west, south, side, side};
+  }
 
   Result<void> restore(const Bowl& bowl, double depth) {
     if (first_.samples().empty()) first_ = HeightMap(heights_);
@@ -183,7 +213,7 @@ class BowlSurface final : public LiveSurface {
   Fault fault_;
   HeightMap heights_, first_;
   SampleRectangle touched_{};
-  std::vector<Bowl> bowls_;
+  std::vector<Bowl> bowls_, creeping_;
   std::size_t bowl_ = 0;
   int pressed_ = 0;
   std::uint64_t steps_ = 0;
@@ -207,76 +237,30 @@ class BowlDeformer final : public Deformer {
   Fault fault_;
 };
 
-/// "bowl" and "other-bowl" are good, and "small", which does not grow; the rest are named after their faults.
+/// "bowl" and "other-bowl" are good, and "creeps", which spreads, and "small", which does not grow; the rest
+/// are named after their faults.
 inline Result<DeformerKind> testDeformer(std::string_view id) {
-  constexpr std::array<std::pair<std::string_view, Fault>, 12> kKinds = {{{"bowl", Fault::none},
-                                                                          {"other-bowl", Fault::none},
-                                                                          {"refuses", Fault::refuses},
-                                                                          {"throws", Fault::throwsAtStep},
-                                                                          {"not-finite", Fault::notFinite},
-                                                                          {"collar", Fault::touchesCollar},
-                                                                          {"never-rests", Fault::neverRests},
-                                                                          {"never-steps", Fault::neverSteps},
-                                                                          {"nothing", Fault::beginsNothing},
-                                                                          {"overshoots", Fault::overshoots},
-                                                                          {"small", Fault::doesNotGrow},
-                                                                          {"restores", Fault::restores}}};
+  constexpr std::array<std::pair<std::string_view, Fault>, 15> kKinds = {
+      {{"bowl", Fault::none},
+       {"other-bowl", Fault::none},
+       {"refuses", Fault::refuses},
+       {"throws", Fault::throwsAtStep},
+       {"not-finite", Fault::notFinite},
+       {"collar", Fault::touchesCollar},
+       {"never-rests", Fault::neverRests},
+       {"never-steps", Fault::neverSteps},
+       {"nothing", Fault::beginsNothing},
+       {"overshoots", Fault::overshoots},
+       {"small", Fault::doesNotGrow},
+       {"restores", Fault::restores},
+       {"creeps", Fault::creeps},
+       {"never-spreads", Fault::neverSpreads},
+       {"nowhere", Fault::spreadsNowhere}}};
   for (const auto& [name, fault] : kKinds) {
     if (id == name)
       return DeformerKind{std::make_shared<BowlDeformer>(fault), BowlDeformer::parameters(), "1"};
   }
   return Error{"there is no deformer \"" + std::string(id) + "\""};
-}
-
-/// Counts what is asked of the bowls behind it.
-struct BowlCounts {
-  std::atomic<int> begun = 0, grown = 0, applied = 0, snapshots = 0;
-};
-
-class CountedSurface final : public LiveSurface {
- public:
-  CountedSurface(std::unique_ptr<LiveSurface> surface, BowlCounts& counts)
-      : surface_(std::move(surface)), counts_(counts) {}
-  Result<void> apply(const Stamp& stamp) override { return ++counts_.applied, surface_->apply(stamp); }
-  bool step(const Slice& slice, std::uint64_t upTo) override { return surface_->step(slice, upTo); }
-  std::uint64_t steps() const noexcept override { return surface_->steps(); }
-  bool atRest() const noexcept override { return surface_->atRest(); }
-  std::shared_ptr<const DeformedGround> snapshot() override {
-    return ++counts_.snapshots, surface_->snapshot();
-  }
-  std::size_t bytes() const noexcept override { return surface_->bytes(); }
-  double samplingError() const override { return surface_->samplingError(); }
-  Result<void> grow(const DeformRegion& region, ConstHeightView ground) override {
-    return ++counts_.grown, surface_->grow(region, ground);
-  }
-
- private:
-  std::unique_ptr<LiveSurface> surface_;
-  BowlCounts& counts_;
-};
-
-class CountedDeformer final : public Deformer {
- public:
-  explicit CountedDeformer(BowlCounts& counts) : counts_(counts) {}
-  Result<double> reach(const Stamp& stamp, double spacing) const override {
-    return bowls_.reach(stamp, spacing);
-  }
-  Result<std::unique_ptr<LiveSurface>> begin(const DeformRegion& region,
-                                             ConstHeightView ground) const override {
-    ++counts_.begun;
-    auto surface = *bowls_.begin(region, ground);
-    return std::unique_ptr<LiveSurface>(std::make_unique<CountedSurface>(std::move(surface), counts_));
-  }
-
- private:
-  BowlDeformer bowls_{Fault::none};
-  BowlCounts& counts_;
-};
-
-inline DeformerSource countedBowls(BowlCounts& counts, const std::string& version = "1") {
-  return [&counts, version](std::string_view) -> Result<DeformerKind> {
-    return DeformerKind{std::make_shared<CountedDeformer>(counts), BowlDeformer::parameters(), version};
-  };
 }
 
 }  // namespace teren

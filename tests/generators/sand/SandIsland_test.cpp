@@ -744,6 +744,64 @@ TEST(SandIsland, LetsSandLieAtTheFootOfAHillAsSandLies) {
   EXPECT_LT(steepestLooseSlope(island.surface()), kSteepestSand);
 }
 
+/// As the engine lets it, on ground that it has.
+void spread(Island& island) {
+  ASSERT_FALSE(island->spreadsTo().isEmpty());
+  ASSERT_TRUE(island.region().changeable().contains(island->spreadsTo()));
+  island->spread();
+  ASSERT_FALSE(island->atRest());
+  island.rest();
+}
+
+TEST(SandIsland, SpreadsFromTheEndOfItsReachToTheFootOfAHill) {
+  constexpr double kWidth = 130.0;
+  const HeightMap ground = hillside(kWidth);
+  Island island(ground);
+  const SixfoldVolume before = island.account();
+  const Stamp heap = stamp(30.0, 96.0, 4.0, -4.0);
+  const double reach = SandIsland::read(heap, 2.0).value().reach;
+  ASSERT_LT(heap.east + reach, kApron + 100.0 + kWidth - 40.0) << "the foot is beyond it";
+  EXPECT_TRUE(island->spreadsTo().isEmpty());
+  island.press(heap);
+  island.rest();
+  EXPECT_GT(highestBetween(ground, island.heights(), heap, 0.0, reach), 0.5F);
+  for (int count = 0; !island->spreadsTo().isEmpty(); ++count) {
+    ASSERT_LT(count, 8);
+    spread(island);
+  }
+  EXPECT_LT(highestBetween(ground, island.heights(), heap, 0.0, reach), 0.1F) << "nothing leans there now";
+  EXPECT_GT(highestBetween(ground, island.heights(), heap, reach, 1e9), 0.2F);
+  EXPECT_TRUE(island.account() == before);
+  EXPECT_LT(steepestLooseSlope(island.surface()), kSteepestSand);
+  expectSound(island, ground);
+}
+
+TEST(SandIsland, SpreadsAfterGrowingAsIfItHadBegunSo) {
+  const HeightMap ground = steep(kLarge);
+  Island grown(steep()), large(ground, kLarge);
+  const double east = 2.0 * kLarge.placeOf(kRegion).column, north = 2.0 * kLarge.placeOf(kRegion).row;
+  const double reach = SandIsland::read(stamp(0.0, 0.0, 4.0, -4.0), 2.0).value().reach;
+  const double place = 2.0 * (kRegion.sampleColumns() - 1) - 2.0 * kApron - reach + 100.0;
+  grown.press(stamp(place, 96.0, 4.0, -4.0));
+  large.press(stamp(place + east, 96.0 + north, 4.0, -4.0));
+  grown.rest();
+  large.rest();
+  ASSERT_FALSE(kRegion.changeable().contains(grown->spreadsTo()));
+  const HeightMap before = grown.heights();
+  grown->spread();
+  EXPECT_TRUE(grown->atRest()) << "there is no ground";
+  EXPECT_TRUE(test::sameBits(grown.heights().view(), before.view()));
+  grown.grow(ground, kLarge);
+  for (int count = 0; count < 2; ++count) {
+    spread(grown);
+    spread(large);
+    EXPECT_EQ(grown->steps(), large->steps());
+    ASSERT_TRUE(test::sameBits(grown.heights().view(), large.heights().view()));
+  }
+  EXPECT_EQ(openTriangles(grown), openTriangles(large));
+  expectSound(grown, ground);
+}
+
 /// Anywhere down to so far [m] to the east of a heap, in a strip 40 m wide.
 float highestDownTo(const HeightMap& ground, Island& island, const Stamp& heap, double far) {
   return highestWhere(ground, island.heights(), [&](double east, double north) {
